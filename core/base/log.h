@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Messages to a person, on stderr. Results go to stdout and never through here.
+ * A NULL `struct irb_log *` is silent, so that library code and tests need no special case.
+ */
+#ifndef IRB_BASE_LOG_H
+#define IRB_BASE_LOG_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+enum irb_log_level { IRB_LOG_ERROR, IRB_LOG_WARNING, IRB_LOG_INFO, IRB_LOG_DEBUG };
+
+struct irb_log {
+    FILE *out;                /* borrowed, usually stderr */
+    enum irb_log_level level; /* messages above this are dropped */
+    bool colour;              /* off under NO_COLOR or when `out` is no terminal */
+    bool progress_bar;        /* `out` is a terminal: progress is redrawn in place */
+    bool bar_shown;           /* a progress line is on the screen and has to be cleared first */
+    double last_progress_s;   /* monotonic time of the last progress line */
+};
+
+/* stderr, IRB_LOG_INFO, colour and bar as the terminal and NO_COLOR allow. */
+struct irb_log irb_log_default(void);
+
+void irb_log_write(struct irb_log *log, enum irb_log_level level, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#define irb_warn(log, ...) irb_log_write(log, IRB_LOG_WARNING, __VA_ARGS__)
+#define irb_info(log, ...) irb_log_write(log, IRB_LOG_INFO, __VA_ARGS__)
+#define irb_debug(log, ...) irb_log_write(log, IRB_LOG_DEBUG, __VA_ARGS__)
+
+/* Shows "what 37 % 0:12 left"; in place on a terminal (at most 10 a second), else a plain line at
+ * most every 5 seconds. fraction in [0,1]; elapsed_s since the work began, for the time left. */
+void irb_log_progress(struct irb_log *log, const char *what, double fraction, double elapsed_s);
+
+/* Clears the bar, if one is shown. */
+void irb_log_progress_done(struct irb_log *log);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * An experiment: scenes with camera and light scripts, trials (a method with parameters), and how
+ * to render, reference and score them. Read from YAML; every error names file, line and column,
+ * and the nearest valid key.
+ */
+#ifndef IRB_EXPERIMENT_CONFIG_H
+#define IRB_EXPERIMENT_CONFIG_H
+
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/reference/reference.h"
+#include "core/scene/animation.h"
+#include "methods/registry.h"
+
+/* Scalar settings at the top of a config and in its sections; declared as options. */
+struct irb_render_settings {
+    int width, height;   /* pixels: `resolution: [w, h]` */
+    int frames;          /* scored frames */
+    int settle;          /* unscored frames at the first pose (design: 16 for all methods) */
+    int rsm_resolution;  /* texels a side */
+    float exposure;      /* of previews, a factor on radiance; 0 = from the reference */
+    int repeats;         /* timed repeats of the sequence */
+};
+extern const struct irb_option irb_render_options[];
+
+struct irb_scene_entry {
+    char *name;                     /* key in tables: the built-in's name or the file's stem */
+    char *source;                   /* built-in name or path, ${VARIABLES} expanded */
+    struct irb_animation animation; /* from the config, else the built-in's view */
+};
+
+struct irb_trial {
+    const struct irb_method *method;
+    void *params;  /* the method's parameter struct; owned */
+    char *name;    /* "rsm:mode=importance:samples=400": only what differs from the defaults */
+};
+
+struct irb_config {
+    char *path;                       /* where it was read */
+    char *name;                       /* `name:`, else the file's stem */
+    struct irb_render_settings render;
+    struct irb_reference_settings reference;
+    int seed;
+    struct irb_scene_entry *scenes;
+    int scene_count;
+    struct irb_trial *trials;
+    int trial_count;
+};
+
+/* `overrides`: NULL-terminated "key=value" strings of --set, dotted for sections
+ * ("reference.noise=0.02"); they win over the file. */
+bool irb_config_load(struct irb_config *config, const char *path, const char *const *overrides,
+                     const struct irb_registry *registry, struct irb_error *err);
+void irb_config_destroy(struct irb_config *config);
+
+/* Parses "method:option=value:option=value" into a trial. */
+bool irb_trial_parse(struct irb_trial *trial, const char *text,
+                     const struct irb_registry *registry, struct irb_error *err);
+void irb_trial_destroy(struct irb_trial *trial);
+
+/* Hash of all that can change a result of the run. */
+struct irb_key irb_config_key(const struct irb_config *config);
+
+#endif

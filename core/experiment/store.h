@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The results of one run: an SQLite database RUN/results.sqlite. Tables, CSV, JSON and plots are
+ * views of it. Every frame is one transaction, so that a killed run leaves whole frames only.
+ * A second process may read while a run writes (WAL).
+ */
+#ifndef IRB_EXPERIMENT_STORE_H
+#define IRB_EXPERIMENT_STORE_H
+
+#include "core/base/error.h"
+
+#include <stdint.h>
+
+#define IRB_STORE_SCHEMA 1
+
+struct irb_store;
+
+/* Opens RUN/results.sqlite, creating folder and tables when `create`. Refuses another schema
+ * version, and a config key that differs from the stored one (IRB_E_INPUT tells both). */
+struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_error *err);
+void irb_store_close(struct irb_store *store);
+
+/* Provenance: one text value a name; set replaces. get returns malloc'ed text or NULL. */
+bool irb_store_set_meta(struct irb_store *store, const char *name, const char *value,
+                        struct irb_error *err);
+char *irb_store_get_meta(struct irb_store *store, const char *name);
+
+/* A trial of a scene; returns its id (>= 1), creating the row if needed; 0 on failure. */
+int64_t irb_store_trial(struct irb_store *store, const char *scene, const char *method,
+                        const char *trial, const char *params_json, int seed,
+                        struct irb_error *err);
+
+struct irb_store_value {
+    const char *name;
+    double value; /* NaN is stored as NULL */
+};
+
+/* One rendered frame: stage times in ms under "clock", statistics. Replaces an earlier row. */
+bool irb_store_frame(struct irb_store *store, int64_t trial, int frame, const char *clock,
+                     const struct irb_store_value *stage_ms, int stage_count,
+                     const struct irb_store_value *statistics, int statistic_count,
+                     struct irb_error *err);
+/* Whether the frame has been rendered / scored. */
+bool irb_store_has_frame(struct irb_store *store, int64_t trial, int frame);
+bool irb_store_has_scores(struct irb_store *store, int64_t trial, int frame);
+
+/* Metrics of one frame (frame >= 0) or of the sequence (frame = -1). */
+bool irb_store_scores(struct irb_store *store, int64_t trial, int frame,
+                      const struct irb_store_value *metrics, int count, struct irb_error *err);
+
+/* ---- reading ---- */
+struct irb_store_trial_row {
+    int64_t id;
+    char *scene, *method, *trial, *params_json; /* owned by the list */
+    int seed;
+};
+struct irb_store_trial_list {
+    struct irb_store_trial_row *rows;
+    int count;
+};
+bool irb_store_trials(struct irb_store *store, struct irb_store_trial_list *out,
+                      struct irb_error *err);
+void irb_store_trial_list_destroy(struct irb_store_trial_list *list);
+
+/* Calls fn for each (frame, name, value), ordered by frame then name; frame -1 first. */
+typedef void (*irb_store_value_fn)(void *user, int frame, const char *name, double value);
+bool irb_store_read_scores(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
+                           void *user, struct irb_error *err);
+/* Likewise for stage times (ms); and for a frame's statistics. */
+bool irb_store_read_stages(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
+                           void *user, struct irb_error *err);
+bool irb_store_read_statistics(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
+                               void *user, struct irb_error *err);
+
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Multi-layer OpenEXR through OpenEXRCore. A layer "indirect" with 3 channels is stored as
+ * indirect.R, indirect.G, indirect.B; the layer "" as plain R, G, B (what a viewer shows first).
+ * 1 channel is Y ("name.Y"), or "name" itself for depth-like layers with suffixes "Z"; 4 is RGBA.
+ * Readable by tev, OpenImageIO and Blender.
+ */
+#ifndef IRB_IMAGE_EXR_H
+#define IRB_IMAGE_EXR_H
+
+#include "core/image/image.h"
+
+struct irb_exr_layer {
+    const char *name;              /* "" for the default layer */
+    const char *suffixes;          /* one letter a channel: "RGB", "XYZ", "Y", "Z", "RGBA" */
+    const struct irb_image *image; /* borrowed; all layers have one size */
+};
+
+/* String attributes: provenance. */
+struct irb_exr_attribute {
+    const char *name, *value;
+};
+
+enum irb_exr_compression { IRB_EXR_NONE, IRB_EXR_ZIP };
+
+/* 32-bit float channels; written beside `path` and renamed into place. IRB_E_IO on failure. */
+bool irb_exr_write(const char *path, const struct irb_exr_layer *layers, int layer_count,
+                   const struct irb_exr_attribute *attributes, int attribute_count,
+                   enum irb_exr_compression compression, struct irb_error *err);
+
+/* Reads one layer (half or float channels; all of `suffixes` must be there). *image is created.
+ * IRB_E_INPUT names the file and the missing channel, or what is wrong with the file. */
+bool irb_exr_read(const char *path, const char *layer, const char *suffixes,
+                  struct irb_image *image, struct irb_error *err);
+
+/* Reads several layers of one file at once; images[i] is created for layers[i] (whose `image`
+ * member is ignored). On failure none is left. */
+bool irb_exr_read_layers(const char *path, const struct irb_exr_layer *layers,
+                         struct irb_image *images, int layer_count, struct irb_error *err);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Images of other formats through OpenImageIO (the C++ behind these declarations is one thin
+ * file). In a build without it (-Dimages=disabled) both functions fail with IRB_E_USAGE and say so.
+ */
+#ifndef IRB_IMAGE_IMAGEIO_H
+#define IRB_IMAGE_IMAGEIO_H
+
+#include "core/image/image.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Writes values in [0,1] (clamped) as an 8-bit PNG, with no colour conversion: pass sRGB values.
+ * 1 or 3 channels. */
+bool irb_png_write(const char *path, const struct irb_image *image, struct irb_error *err);
+
+/* Decodes an image file from memory (PNG, JPEG, WebP, ...) to RGBA, 8 bits a channel, row 0 at
+ * the top, as stored (no colour conversion). `name` appears in messages. *rgba is malloc'ed. */
+bool irb_image_decode(const char *name, const void *data, size_t size, int *width, int *height,
+                      unsigned char **rgba, struct irb_error *err);
+
+/* Reads any image file that OpenImageIO knows as linear float RGB. */
+bool irb_image_read_rgb(const char *path, struct irb_image *image, struct irb_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

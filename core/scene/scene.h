@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A scene: triangles in world space at rest, grouped into objects, with materials and textures.
+ * Metres, y up, right-handed. Surfaces are two-sided diffuse reflectors: the side that is seen (or
+ * lit) is the side that reflects, nothing passes through.
+ *
+ * Does not: know lights, cameras, OpenGL or Embree.
+ */
+#ifndef IRB_SCENE_SCENE_H
+#define IRB_SCENE_SCENE_H
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/base/log.h"
+
+#include <stdint.h>
+
+/* Lambert + Blinn (thesis 2.2.3, 5.3.4): L = (k_d n.l + k_s (n.h)^alpha) I/(pi r^2). */
+struct irb_material {
+    char name[64];
+    float diffuse[3];    /* k_d, linear reflectance in [0,1], multiplied by the texture */
+    float specular[3];   /* k_s, in [0,1] */
+    float exponent;      /* alpha, >= 1 */
+    int diffuse_texture; /* index into textures, or -1 */
+};
+
+/* 8-bit RGBA texture, colour sRGB-encoded (glTF base colour); row 0 at the top (glTF v = 0). */
+struct irb_scene_texture {
+    char name[64];
+    int width, height;
+    unsigned char *rgba; /* owned */
+};
+
+/* A run of triangles that moves and is shaded as one. */
+struct irb_object {
+    char name[64];
+    uint32_t first_triangle, triangle_count;
+    int material;
+    float transform[16]; /* column-major; rest position -> current position; identity at rest */
+};
+
+struct irb_scene {
+    char name[64];
+    uint32_t vertex_count, triangle_count;
+    float *positions; /* 3 a vertex, world space at rest, metres; owned */
+    float *normals;   /* 3 a vertex, unit; owned */
+    float *texcoords; /* 2 a vertex; owned */
+    uint32_t *indices; /* 3 a triangle; owned */
+    struct irb_material *materials;
+    int material_count;
+    struct irb_scene_texture *textures;
+    int texture_count;
+    struct irb_object *objects;
+    int object_count;
+    float bounds_min[3], bounds_max[3]; /* of all vertices, at rest */
+};
+
+void irb_scene_destroy(struct irb_scene *scene); /* frees the scene too; NULL is fine */
+
+/* Loads a built-in by its name, or a .gltf/.glb file by its path. IRB_E_INPUT names what is wrong:
+ * a missing or truncated file, an index out of range, a non-finite vertex (mesh and number), no
+ * triangles, a texture that is missing. Warnings (dropped lights, degenerate triangles) go to log. */
+struct irb_scene *irb_scene_load(const char *name_or_path, struct irb_log *log,
+                                 struct irb_error *err);
+
+/* Content hash of everything that can change an image. */
+struct irb_key irb_scene_key(const struct irb_scene *scene);
+
+/* Bounds of the scene with every object's current transform applied. */
+void irb_scene_current_bounds(const struct irb_scene *scene, float min[3], float max[3]);
+
+/* Length of the diagonal of the rest bounds. */
+float irb_scene_diagonal(const struct irb_scene *scene);
+
+#endif

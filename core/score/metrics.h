@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Image metrics on linear HDR images, over pixels with geometry (mask != 0). Each follows the
+ * public definition it names; sums are in double.
+ */
+#ifndef IRB_SCORE_METRICS_H
+#define IRB_SCORE_METRICS_H
+
+#include "core/image/image.h"
+
+#include <stdint.h>
+
+/* test v, reference r: 3 channels, one size; mask: width*height bytes, NULL = all. */
+struct irb_pair {
+    const struct irb_image *test, *reference;
+    const uint8_t *mask;
+};
+
+struct irb_error_scores {
+    double rmse;         /* sqrt(mean (v-r)^2) over pixels and channels; units of the image */
+    double relmse;       /* mean (v-r)^2/(r^2 + eps); no unit */
+    double bias;         /* mean (v-r); units of the image */
+    double energy_ratio; /* sum v / sum r; NaN where sum r = 0 */
+    long non_finite;     /* pixels with a NaN or Inf; they are left out of the other figures */
+    long negative;       /* pixels with a negative channel */
+    long pixels;         /* counted */
+};
+
+/* eps > 0: (0.01 * mean reference of the sequence)^2, see irb_relmse_eps. */
+struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps);
+
+/* (0.01 * mean)^2, bounded below by the smallest normal float squared for black references. */
+double irb_relmse_eps(double mean_reference);
+
+/* Mean over pixels and channels of the finite values under the mask. */
+double irb_masked_mean(const struct irb_image *image, const uint8_t *mask);
+
+/* Squared error map |v-r|^2/(r^2+eps), mean over channels; 1 channel, created. */
+bool irb_relmse_map(const struct irb_pair *pair, double eps, struct irb_image *map,
+                    struct irb_error *err);
+
+/* ---- Flicker: the temporal residual against the reference's own change ----
+ * e_t = I_t - R_t; over pixels with geometry in both frames. */
+struct irb_flicker_scores {
+    double flicker;   /* sqrt(mean |e_t - e_(t-1)|^2) / mean R_t; identical inputs give exactly 0 */
+    double pop_share; /* share of pixels with |e_t - e_(t-1)| > 0.1 max(R_t, 0.1 mean R) */
+};
+
+/* previous and current: the pairs of frames t-1 and t; static camera. mean_reference is the
+ * sequence's. Magnitudes are of luminance-free RGB vectors: |e|^2 = mean over channels. */
+struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
+                                            const struct irb_pair *current, double mean_reference);
+
+/* Median, 95th percentile (nearest rank) and maximum; values need not be sorted. NaN for none. */
+struct irb_summary {
+    double mean, median, p95, worst;
+};
+struct irb_summary irb_summarise(const double *values, int count);
+
+#endif

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The contract of a method module: the one header that a method includes and a new method has to
+ * satisfy. A method is one folder methods/<name>/, one line in methods/registry.c, and its shaders
+ * under shaders/methods/<name>/. Built as a shared object that exports
+ *
+ *     const struct irb_method *irb_method_module(void);
+ *
+ * the same source is loaded with `irbench --module path.so`.
+ *
+ * A method gets the scene, the light, the camera, the G-buffer and the RSM of one frame and returns
+ * indirect irradiance at the G-buffer's resolution. Albedo is applied afterwards, once, by the
+ * core. It does not: see the reference or the scores, write files, or know another method.
+ *
+ * Units: metres, watts, W/sr, W/m2; linear RGB with Rec.709 primaries.
+ */
+#ifndef IRB_METHODS_METHOD_H
+#define IRB_METHODS_METHOD_H
+
+#include "core/base/option.h"
+#include "core/frame/gbuffer.h"
+#include "core/frame/rsm.h"
+#include "core/gl/timer.h"
+
+#define IRB_METHOD_ABI 1
+
+/* What a method needs beyond the frame it is given. */
+enum irb_method_needs {
+    IRB_NEEDS_NOTHING = 0,
+    IRB_NEEDS_HISTORY = 1 << 0,         /* keeps state from frame to frame */
+    IRB_NEEDS_STATIC_GEOMETRY = 1 << 1, /* objects must not move */
+};
+
+/* All of one frame's inputs; borrowed, valid during render_frame only. */
+struct irb_frame_inputs {
+    const struct irb_scene_gl *scene;
+    const struct irb_light *light;
+    const struct irb_camera *camera;
+    const struct irb_gbuffer *gbuffer;
+    const struct irb_rsm *rsm;
+    int frame;            /* 0.. in the sequence; settle frames are negative */
+    uint64_t seed;        /* of the sequence; the same in all its frames */
+    const void *params;   /* the method's own parameter struct, resolved; may change per frame */
+    struct irb_timer *timer; /* begin/end with an index into `stages`; may be NULL */
+};
+
+enum { IRB_MAX_DEBUG_LAYERS = 8, IRB_MAX_STATISTICS = 8 };
+
+struct irb_frame_output {
+    const struct irb_texture *irradiance; /* RGBA32F, W/m2, G-buffer resolution; the method's */
+    const struct irb_texture *radiance;   /* NULL, or W/(m2 sr) that is added as it is */
+    struct {
+        const char *name; /* "cluster-map" */
+        const struct irb_texture *texture;
+    } debug[IRB_MAX_DEBUG_LAYERS];
+    int debug_count;
+    /* Reflected flux of the RSM (W, mean of the channels) that the method left out or clamped away,
+     * as a share of all reflected flux in [0,1]; NaN where it is not measured. */
+    double lost_energy;
+    struct {
+        const char *name; /* "vpls" */
+        double value;
+    } statistics[IRB_MAX_STATISTICS];
+    int statistic_count;
+};
+
+struct irb_method {
+    int abi;                      /* IRB_METHOD_ABI */
+    const char *name;             /* "rsm": config key and folder name */
+    const char *title;            /* "Reflective shadow maps" */
+    const char *citation;         /* authors, title, venue, year */
+    const char *path_classes;     /* Heckbert's notation of what it adds, "LDDE" */
+    bool claims_visibility;       /* false: it does not model indirect visibility; its own claim is
+                                     then scored against the reference without it */
+    unsigned needs;               /* enum irb_method_needs */
+    size_t params_size;           /* of its parameter struct */
+    const struct irb_option *params; /* ended by IRB_OPTION_END */
+    const char *const *stages;    /* names for timing, NULL-terminated, at most 24 */
+
+    /* State for one trial, for images of width x height. NULL on failure. */
+    void *(*create)(struct irb_gl *gl, const struct irb_scene_gl *scene, int width, int height,
+                    const void *params, struct irb_error *err);
+    bool (*resize)(void *state, int width, int height, struct irb_error *err);
+    /* Forgets all history. */
+    bool (*begin_sequence)(void *state, const void *params, uint64_t seed, struct irb_error *err);
+    bool (*render_frame)(void *state, const struct irb_frame_inputs *inputs,
+                         struct irb_frame_output *output, struct irb_error *err);
+    void (*destroy)(void *state);
+};
+
+typedef const struct irb_method *(*irb_method_module_fn)(void);
+
+#endif

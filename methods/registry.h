@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef IRB_METHODS_REGISTRY_H
+#define IRB_METHODS_REGISTRY_H
+
+#include "methods/method.h"
+
+struct irb_registry {
+    const struct irb_method *methods[64]; /* borrowed */
+    int count;
+    void *modules[16]; /* dlopen handles; owned */
+    int module_count;
+};
+
+/* All built-in methods. */
+void irb_registry_init(struct irb_registry *registry);
+void irb_registry_close(struct irb_registry *registry);
+/* Loads a shared object; checks its ABI and that its name is free. */
+bool irb_registry_load(struct irb_registry *registry, const char *path, struct irb_error *err);
+/* NULL with IRB_E_INPUT that names the nearest method. */
+const struct irb_method *irb_registry_find(const struct irb_registry *registry, const char *name,
+                                           struct irb_error *err);
+
+#endif
