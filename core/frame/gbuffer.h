@@ -5,6 +5,7 @@
 #ifndef IRB_FRAME_GBUFFER_H
 #define IRB_FRAME_GBUFFER_H
 
+#include "core/frame/gbuffer_image.h"
 #include "core/frame/scene_gl.h"
 #include "core/scene/light.h"
 
@@ -28,24 +29,8 @@ void irb_gbuffer_destroy(struct irb_gbuffer *gbuffer);
 bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *scene,
                         const struct irb_camera *camera, struct irb_error *err);
 
-/* The G-buffer in main memory, row 0 = top: what the reference shades and what scores mask by. */
-struct irb_gbuffer_image {
-    int width, height;
-    struct irb_image position;  /* 4: world position; coverage 0 or 1 */
-    struct irb_image normal;    /* 4: shading normal; distance to the camera */
-    struct irb_image geometric; /* 3 */
-    struct irb_image diffuse;   /* 3 */
-    struct irb_image specular;  /* 4: k_s; exponent */
-};
-
+/* Reads all layers back; *out is created. */
 bool irb_gbuffer_read(const struct irb_gbuffer *gbuffer, struct irb_gbuffer_image *out,
                       struct irb_error *err);
-void irb_gbuffer_image_destroy(struct irb_gbuffer_image *image);
-struct irb_key irb_gbuffer_image_key(const struct irb_gbuffer_image *image);
-/* One multi-layer EXR (position, normal, geometric, diffuse, specular). */
-bool irb_gbuffer_image_save(const struct irb_gbuffer_image *image, const char *path,
-                            struct irb_error *err);
-bool irb_gbuffer_image_load(struct irb_gbuffer_image *image, const char *path,
-                            struct irb_error *err);
 
 #endif
