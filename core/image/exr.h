@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * Multi-layer OpenEXR through OpenEXRCore. A layer "indirect" with 3 channels is stored as
- * indirect.R, indirect.G, indirect.B; the layer "" as plain R, G, B (what a viewer shows first).
- * 1 channel is Y ("name.Y"), or "name" itself for depth-like layers with suffixes "Z"; 4 is RGBA.
- * Readable by tev, OpenImageIO and Blender.
+ * Multi-layer OpenEXR through OpenEXRCore. A layer "indirect" with the suffixes "RGB" is stored as
+ * the channels indirect.R, indirect.G, indirect.B; the layer "" as plain R, G, B (what a viewer
+ * shows first). One part, scanlines. Readable by tev, OpenImageIO and Blender.
+ *
+ * Does not: read tiles, deep data, further parts, subsampled or integer channels (imageio.h does).
  */
 #ifndef IRB_IMAGE_EXR_H
 #define IRB_IMAGE_EXR_H
@@ -13,7 +14,7 @@
 struct irb_exr_layer {
     const char *name;              /* "" for the default layer */
     const char *suffixes;          /* one letter a channel: "RGB", "XYZ", "Y", "Z", "RGBA" */
-    const struct irb_image *image; /* borrowed; all layers have one size */
+    const struct irb_image *image; /* borrowed; as many channels as suffixes; one size for all */
 };
 
 /* String attributes: provenance. */
@@ -23,7 +24,13 @@ struct irb_exr_attribute {
 
 enum irb_exr_compression { IRB_EXR_NONE, IRB_EXR_ZIP };
 
-/* 32-bit float channels; written beside `path` and renamed into place. IRB_E_IO on failure. */
+enum {
+    IRB_EXR_MAX_SIDE = 16384,   /* pixels; larger sizes are refused as damage, writing and reading */
+    IRB_EXR_MAX_CHANNELS = 128, /* that one call writes or reads */
+};
+
+/* 32-bit float channels; written beside `path` and renamed into place. IRB_E_IO on failure. Equal
+ * inputs give equal files. */
 bool irb_exr_write(const char *path, const struct irb_exr_layer *layers, int layer_count,
                    const struct irb_exr_attribute *attributes, int attribute_count,
                    enum irb_exr_compression compression, struct irb_error *err);

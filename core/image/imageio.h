@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Images of other formats through OpenImageIO (the C++ behind these declarations is one thin
- * file). In a build without it (-Dimages=disabled) both functions fail with IRB_E_USAGE and say so.
+ * file). In a build without it (-Dimages=disabled) all functions fail with IRB_E_USAGE and say so.
  */
 #ifndef IRB_IMAGE_IMAGEIO_H
 #define IRB_IMAGE_IMAGEIO_H
@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 /* Writes values in [0,1] (clamped) as an 8-bit PNG, with no colour conversion: pass sRGB values.
- * 1 or 3 channels. */
+ * 1 or 3 channels; NaN becomes 0. Equal images give equal files (a fixed date is stored). */
 bool irb_png_write(const char *path, const struct irb_image *image, struct irb_error *err);
 
 /* Decodes an image file from memory (PNG, JPEG, WebP, ...) to RGBA, 8 bits a channel, row 0 at
@@ -21,7 +21,8 @@ bool irb_png_write(const char *path, const struct irb_image *image, struct irb_e
 bool irb_image_decode(const char *name, const void *data, size_t size, int *width, int *height,
                       unsigned char **rgba, struct irb_error *err);
 
-/* Reads any image file that OpenImageIO knows as linear float RGB. */
+/* Reads any image file that OpenImageIO knows as linear float RGB: channels R, G, B where there are
+ * such, else the first three, or the one there is; files marked as sRGB are linearised. */
 bool irb_image_read_rgb(const char *path, struct irb_image *image, struct irb_error *err);
 
 #ifdef __cplusplus
