@@ -123,10 +123,12 @@ bool decode(const char *name, const void *data, size_t size, int *width, int *he
             unsigned char **rgba, struct irb_error *err)
 {
     OIIO::Filesystem::IOMemReader reader(const_cast<void *>(data), size);
+    OIIO::Filesystem::IOProxy *proxy = &reader;
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); /* as stored, not premultiplied */
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     std::string hint = name_by_content(name, static_cast<const unsigned char *>(data), size);
-    auto in = OIIO::ImageInput::open(hint, &config, &reader);
+    auto in = OIIO::ImageInput::open(hint, &config, proxy);
     if (!in)
         return irb_fail(err, IRB_E_INPUT, "%s: cannot decode the image: %s", name,
                         one_line(OIIO::geterror()).c_str());
