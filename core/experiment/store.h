@@ -15,8 +15,9 @@
 
 struct irb_store;
 
-/* Opens RUN/results.sqlite, creating folder and tables when `create`. Refuses another schema
- * version, and a config key that differs from the stored one (IRB_E_INPUT tells both). */
+/* Opens RUN/results.sqlite, creating folder and tables when `create`. IRB_E_INPUT for a missing or
+ * damaged file, another schema version or a database of something else; IRB_E_IO for what the
+ * system refuses. */
 struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_error *err);
 void irb_store_close(struct irb_store *store);
 
@@ -25,17 +26,23 @@ bool irb_store_set_meta(struct irb_store *store, const char *name, const char *v
                         struct irb_error *err);
 char *irb_store_get_meta(struct irb_store *store, const char *name);
 
-/* A trial of a scene; returns its id (>= 1), creating the row if needed; 0 on failure. */
+/* A trial of a scene; returns its id (>= 1), creating the row if needed; 0 on failure.
+ * IRB_E_INPUT where the row is there with another method or other parameters. */
 int64_t irb_store_trial(struct irb_store *store, const char *scene, const char *method,
                         const char *trial, const char *params_json, int seed,
                         struct irb_error *err);
+
+/* The id of a trial that is there, or 0. */
+int64_t irb_store_trial_find(struct irb_store *store, const char *scene, const char *trial,
+                             int seed);
 
 struct irb_store_value {
     const char *name;
     double value; /* NaN is stored as NULL */
 };
 
-/* One rendered frame: stage times in ms under "clock", statistics. Replaces an earlier row. */
+/* One rendered frame: stage times in ms under "clock", statistics. Replaces an earlier row (its
+ * scores stay). */
 bool irb_store_frame(struct irb_store *store, int64_t trial, int frame, const char *clock,
                      const struct irb_store_value *stage_ms, int stage_count,
                      const struct irb_store_value *statistics, int statistic_count,

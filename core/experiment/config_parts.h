@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The parts of the config reader; each reads one section of the file. For config*.c and trial.c
+ * only.
+ */
+#ifndef IRB_EXPERIMENT_CONFIG_PARTS_H
+#define IRB_EXPERIMENT_CONFIG_PARTS_H
+
+#include "core/experiment/config.h"
+#include "core/experiment/yaml.h"
+
+/* Names become file names and table keys. */
+enum { IRB_LONGEST_NAME = 64 };
+
+/* Whether `name` is 1..IRB_LONGEST_NAME letters, digits, '.', '_', '-' and begins with no '.'. */
+bool irb_config_name_is_valid(const char *name);
+/* The file name of `path` without folder and extension, other characters replaced by '-'. */
+char *irb_config_stem(const char *path);
+
+/* `scenes:`, or `scene:` with `camera:` and `light:` at the top (config_scenes.c). */
+bool irb_config_read_scenes(struct irb_config *config, struct irb_yaml *yaml,
+                            struct irb_error *err);
+
+/* `camera:` and `light:` of `scene` (config_script.c). *animation holds a built-in's view, or is
+ * empty but for its defaults where the scene is a file. */
+bool irb_config_read_script(struct irb_animation *animation, struct irb_yaml *yaml,
+                            irb_yaml_node scene, bool builtin, struct irb_error *err);
+
+/* `trials:` (config_trials.c). */
+bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
+                            const struct irb_registry *registry, struct irb_error *err);
+
+/* A trial of `method` with default parameters; and its name from its parameters (trial.c). */
+bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
+                     struct irb_error *err);
+void irb_trial_rename(struct irb_trial *trial);
+
+#endif

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The name of a trial, "method:option=value:option=value", as it is parsed and printed.
+ */
+#include "core/base/str.h"
+#include "core/experiment/config_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
+                     struct irb_error *err)
+{
+    /* zeroed, so that padding has one value too */
+    void *params = calloc(1, method->params_size ? method->params_size : 1);
+    if (!params)
+        return irb_fail(err, IRB_E_MEMORY, "out of memory for the parameters of '%s'",
+                        method->name);
+    *trial = (struct irb_trial){.method = method, .params = params};
+    irb_options_default(method->params, params);
+    irb_trial_rename(trial);
+    return true;
+}
+
+void irb_trial_rename(struct irb_trial *trial)
+{
+    struct irb_str changed = {0};
+    irb_options_print_changed(trial->method->params, trial->params, &changed);
+    free(trial->name);
+    trial->name = irb_asprintf("%s%s%s", trial->method->name, changed.length ? ":" : "",
+                               irb_str_text(&changed));
+    irb_str_free(&changed);
+}
+
+void irb_trial_destroy(struct irb_trial *trial)
+{
+    free(trial->params);
+    free(trial->name);
+    *trial = (struct irb_trial){0};
+}
+
+/* One "option=value", which is cut in two in place. `before`: the options that were set already,
+ * each between colons. */
+static bool set_option(struct irb_trial *trial, char *assignment, struct irb_str *before,
+                       struct irb_error *err)
+{
+    char *equals = strchr(assignment, '=');
+    if (!equals || equals == assignment)
+        return irb_fail(err, IRB_E_INPUT, "expected option=value, found '%.64s'", assignment);
+    *equals = 0;
+    char *key = irb_asprintf(":%s:", assignment);
+    bool twice = strstr(irb_str_text(before), key) != NULL;
+    irb_str_printf(before, "%s", key);
+    free(key);
+    if (twice)
+        return irb_fail(err, IRB_E_INPUT, "'%.64s' is given twice", assignment);
+    return irb_option_set(trial->method->params, trial->params, assignment, equals + 1, err);
+}
+
+static bool set_options(struct irb_trial *trial, char *text, struct irb_error *err)
+{
+    struct irb_str before = {0};
+    bool ok = true;
+    while (ok && text) {
+        char *next = strchr(text, ':');
+        if (next)
+            *next++ = 0;
+        ok = set_option(trial, text, &before, err);
+        text = next;
+    }
+    irb_str_free(&before);
+    return ok;
+}
+
+bool irb_trial_parse(struct irb_trial *trial, const char *text, const struct irb_registry *registry,
+                     struct irb_error *err)
+{
+    *trial = (struct irb_trial){0};
+    char *copy = irb_strdup(text);
+    char *options = strchr(copy, ':');
+    if (options)
+        *options++ = 0;
+    const struct irb_method *method = irb_registry_find(registry, copy, err);
+    bool ok = method && irb_trial_begin(trial, method, err) &&
+              (!options || set_options(trial, options, err));
+    free(copy);
+    if (!ok) {
+        irb_trial_destroy(trial);
+        return irb_error_prefix(err, "trial '%.128s'", text);
+    }
+    irb_trial_rename(trial);
+    return true;
+}
