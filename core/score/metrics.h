@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
  * Image metrics on linear HDR images, over pixels with geometry (mask != 0). Each follows the
- * public definition it names; sums are in double.
+ * public definition it names; sums are in double, in the order of the pixels.
+ *
+ * A pixel counts where the mask says so and every channel of every image in question is finite.
+ * Where no pixel counts, means and ratios are NaN and counts are 0.
  */
 #ifndef IRB_SCORE_METRICS_H
 #define IRB_SCORE_METRICS_H
@@ -21,21 +24,22 @@ struct irb_error_scores {
     double relmse;       /* mean (v-r)^2/(r^2 + eps); no unit */
     double bias;         /* mean (v-r); units of the image */
     double energy_ratio; /* sum v / sum r; NaN where sum r = 0 */
-    long non_finite;     /* pixels with a NaN or Inf; they are left out of the other figures */
-    long negative;       /* pixels with a negative channel */
-    long pixels;         /* counted */
+    long non_finite;     /* pixels with a NaN or Inf; they are left out of all other figures */
+    long negative;       /* pixels with a negative channel in the test image */
+    long pixels;         /* that count */
 };
 
 /* eps > 0: (0.01 * mean reference of the sequence)^2, see irb_relmse_eps. */
 struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps);
 
-/* (0.01 * mean)^2, bounded below by the smallest normal float squared for black references. */
+/* (0.01 * mean)^2, W2/(m4 sr2) for radiance, bounded below by the smallest normal float squared for black references. */
 double irb_relmse_eps(double mean_reference);
 
 /* Mean over pixels and channels of the finite values under the mask. */
 double irb_masked_mean(const struct irb_image *image, const uint8_t *mask);
 
-/* Squared error map |v-r|^2/(r^2+eps), mean over channels; 1 channel, created. */
+/* Squared error map |v-r|^2/(r^2+eps), mean over channels; 1 channel, created. 0 where the mask is 0,
+ * NaN where a pixel is not finite. */
 bool irb_relmse_map(const struct irb_pair *pair, double eps, struct irb_image *map,
                     struct irb_error *err);
 
@@ -47,11 +51,13 @@ struct irb_flicker_scores {
 };
 
 /* previous and current: the pairs of frames t-1 and t; static camera. mean_reference is the
- * sequence's. Magnitudes are of luminance-free RGB vectors: |e|^2 = mean over channels. */
+ * sequence's, in the images' unit. Magnitudes are of luminance-free RGB vectors: |e|^2 = mean over
+ * channels, R_t likewise. A mean reference of 0 gives flicker 0 for no residual, else infinity. */
 struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
                                             const struct irb_pair *current, double mean_reference);
 
-/* Median, 95th percentile (nearest rank) and maximum; values need not be sorted. NaN for none. */
+/* Mean, median (of an even count the mean of the middle two), 95th percentile (nearest rank) and
+ * maximum; values need not be sorted, NaNs among them are left out. NaN for none. */
 struct irb_summary {
     double mean, median, p95, worst;
 };

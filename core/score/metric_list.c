@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/score/metric_list.h"
+
+#include <math.h>
+#include <string.h>
+
+const struct irb_metric_info irb_metrics[IRB_METRIC_COUNT] = {
+#define X(name, unit, better, doc) {#name, unit, IRB_BETTER_##better, doc},
+    IRB_METRICS(X)
+#undef X
+};
+
+int irb_metric_find(const char *name)
+{
+    for (int i = 0; i < IRB_METRIC_COUNT; i++)
+        if (!strcmp(irb_metrics[i].name, name))
+            return i;
+    return -1;
+}
+
+const char *irb_better_name(enum irb_better better)
+{
+    static const char *const names[] = {"lower", "higher", "one", "zero", "none"};
+    return names[better];
+}
+
+double irb_metric_badness(int metric, double value)
+{
+    switch (irb_metrics[metric].better) {
+    case IRB_BETTER_LOWER:
+        return value;
+    case IRB_BETTER_HIGHER:
+        return -value;
+    case IRB_BETTER_ONE:
+        return fabs(value - 1);
+    case IRB_BETTER_ZERO:
+        return fabs(value);
+    case IRB_BETTER_NONE:
+        break;
+    }
+    return 0;
+}

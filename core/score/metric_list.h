@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every metric that is stored: the one list from which tables, `list metrics` and the documentation
+ * take names, units and definitions.
+ *
+ * v is the method's image, r the reference: linear radiance in W/(m2 sr), over pixels with
+ * geometry and over channels. eps = (0.01 * mean r of the sequence)^2. `indirect` is the indirect
+ * radiance and `full` the whole image, both against bounce 1 with exact visibility: what is ranked.
+ * `solution` is the whole image against bounces 1 to 16; `claim` the indirect image of a method that
+ * models no indirect visibility against bounce 1 without it: diagnostic, never ranked.
+ *
+ * Stage times have metrics of their own, stage_<name>_ms, named by the method's table of stages.
+ */
+#ifndef IRB_SCORE_METRIC_LIST_H
+#define IRB_SCORE_METRIC_LIST_H
+
+#define IRB_RADIANCE_UNIT "W/(m2 sr)"
+
+/* Of one ranked image: identifier prefix, what it is called in text. */
+#define IRB_METRICS_OF_IMAGE(X, image, text)                                                       \
+    X(image##_rmse, IRB_RADIANCE_UNIT, LOWER, text " image: RMSE, sqrt(mean (v-r)^2)")             \
+    X(image##_relmse, "", LOWER, text " image: relative MSE, mean (v-r)^2/(r^2+eps)")              \
+    X(image##_bias, IRB_RADIANCE_UNIT, ZERO, text " image: mean signed error, mean (v-r)")         \
+    X(image##_energy_ratio, "", ONE, text " image: sum v / sum r")                                 \
+    X(image##_flip, "", LOWER,                                                                     \
+      text " image: mean HDR-FLIP (Andersson et al. 2021), exposures from the reference sequence") \
+    X(image##_flicker, "", LOWER,                                                                  \
+      text " image: sqrt(mean |e_t - e_(t-1)|^2) / mean r, where e = v - r")                       \
+    X(image##_pop_share, "", LOWER,                                                                \
+      text " image: share of pixels where |e_t - e_(t-1)| > 0.1 max(r_t, 0.1 mean r)")
+
+/* X(name, unit, what is better, one line) */
+#define IRB_METRICS(X)                                                                             \
+    IRB_METRICS_OF_IMAGE(X, indirect, "indirect")                                                  \
+    IRB_METRICS_OF_IMAGE(X, full, "full")                                                          \
+    X(solution_rmse, IRB_RADIANCE_UNIT, LOWER,                                                     \
+      "full image against bounces 1 to 16: RMSE, sqrt(mean (v-r)^2)")                              \
+    X(solution_relmse, "", LOWER,                                                                  \
+      "full image against bounces 1 to 16: relative MSE, mean (v-r)^2/(r^2+eps)")                  \
+    X(solution_energy_ratio, "", ONE, "full image against bounces 1 to 16: sum v / sum r")         \
+    X(claim_rmse, IRB_RADIANCE_UNIT, LOWER,                                                        \
+      "indirect image against bounce 1 without visibility (diagnostic): RMSE")                     \
+    X(claim_relmse, "", LOWER,                                                                     \
+      "indirect image against bounce 1 without visibility (diagnostic): relative MSE")             \
+    X(claim_energy_ratio, "", ONE,                                                                 \
+      "indirect image against bounce 1 without visibility (diagnostic): sum v / sum r")            \
+    X(non_finite, "pixels", LOWER, "pixels with a NaN or an infinity, left out of the errors")     \
+    X(negative, "pixels", LOWER, "pixels with a negative channel")                                 \
+    X(lost_energy, "", LOWER,                                                                      \
+      "share of the RSM's reflected flux that was clamped away or left out")                       \
+    X(reference_noise, "", NONE,                                                                   \
+      "relative MSE that the reference's own noise makes in the indirect image; an error below "   \
+      "it is not ranked")                                                                          \
+    X(reference_flicker, "", NONE, "flicker that the reference's own noise can make: the floor")   \
+    X(frame_ms, "ms", LOWER, "time of a frame, median over the sequence")                          \
+    X(frame_ms_p95, "ms", LOWER, "time of a frame, 95th percentile (nearest rank)")                \
+    X(frame_ms_worst, "ms", LOWER, "time of a frame, the slowest one")                             \
+    X(gl_bytes, "bytes", LOWER, "bytes of OpenGL objects that the method holds")
+
+enum irb_metric {
+#define X(name, unit, better, doc) IRB_METRIC_##name,
+    IRB_METRICS(X)
+#undef X
+        IRB_METRIC_COUNT
+};
+
+/* Where the best value of a metric lies. */
+enum irb_better {
+    IRB_BETTER_LOWER,
+    IRB_BETTER_HIGHER,
+    IRB_BETTER_ONE,  /* the nearer to one */
+    IRB_BETTER_ZERO, /* the nearer to zero, from both sides */
+    IRB_BETTER_NONE, /* says something about the measurement, not about the method */
+};
+
+struct irb_metric_info {
+    const char *name;
+    const char *unit; /* "" for a ratio */
+    enum irb_better better;
+    const char *doc; /* one line: the definition */
+};
+
+extern const struct irb_metric_info irb_metrics[IRB_METRIC_COUNT];
+
+/* Index into irb_metrics, -1 where there is none of that name. */
+int irb_metric_find(const char *name);
+
+/* "lower", "higher", "one", "zero", "none". */
+const char *irb_better_name(enum irb_better better);
+
+/* How far a value is from the best: smaller is better, whatever the metric; NaN stays NaN, and a
+ * metric that ranks nothing gives 0. */
+double irb_metric_badness(int metric, double value);
+
+#endif

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/score/metrics.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { CHANNELS = 3 };
+
+static bool masked(const uint8_t *mask, size_t pixel)
+{
+    return mask && !mask[pixel];
+}
+
+static bool finite3(const float *v)
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+/* Whether the pixel counts: finite in both images. */
+static bool pair_finite(const struct irb_pair *pair, size_t pixel)
+{
+    return finite3(pair->test->data + CHANNELS * pixel) &&
+           finite3(pair->reference->data + CHANNELS * pixel);
+}
+
+struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps)
+{
+    struct irb_error_scores scores = {0};
+    double square = 0, relative = 0, difference = 0, test_sum = 0, reference_sum = 0;
+    size_t pixels = irb_image_pixels(pair->test);
+    for (size_t i = 0; i < pixels; i++) {
+        if (masked(pair->mask, i))
+            continue;
+        const float *test = pair->test->data + CHANNELS * i;
+        const float *reference = pair->reference->data + CHANNELS * i;
+        if (!pair_finite(pair, i)) {
+            scores.non_finite++;
+            continue;
+        }
+        scores.negative += test[0] < 0 || test[1] < 0 || test[2] < 0;
+        scores.pixels++;
+        for (int c = 0; c < CHANNELS; c++) {
+            double v = test[c], r = reference[c], d = v - r;
+            square += d * d;
+            relative += d * d / (r * r + eps);
+            difference += d;
+            test_sum += v;
+            reference_sum += r;
+        }
+    }
+    double count = (double)scores.pixels * CHANNELS; /* 0/0 is the NaN for no pixels */
+    scores.rmse = sqrt(square / count);
+    scores.relmse = relative / count;
+    scores.bias = difference / count;
+    scores.energy_ratio = reference_sum != 0 ? test_sum / reference_sum : (double)NAN;
+    return scores;
+}
+
+double irb_relmse_eps(double mean_reference)
+{
+    double eps = 0.01 * mean_reference * 0.01 * mean_reference;
+    double least = (double)FLT_MIN * FLT_MIN;
+    return eps > least ? eps : least;
+}
+
+double irb_masked_mean(const struct irb_image *image, const uint8_t *mask)
+{
+    double sum = 0;
+    long count = 0;
+    size_t pixels = irb_image_pixels(image);
+    for (size_t i = 0; i < pixels; i++) {
+        if (masked(mask, i))
+            continue;
+        for (int c = 0; c < image->channels; c++) {
+            float value = image->data[i * (size_t)image->channels + (size_t)c];
+            if (isfinite(value)) {
+                sum += value;
+                count++;
+            }
+        }
+    }
+    return sum / (double)count;
+}
+
+bool irb_relmse_map(const struct irb_pair *pair, double eps, struct irb_image *map,
+                    struct irb_error *err)
+{
+    if (!irb_image_create(map, pair->test->width, pair->test->height, 1, err))
+        return false;
+    for (size_t i = 0; i < irb_image_pixels(map); i++) {
+        if (masked(pair->mask, i))
+            continue;
+        double sum = 0;
+        for (int c = 0; c < CHANNELS; c++) {
+            double v = pair->test->data[CHANNELS * i + (size_t)c];
+            double r = pair->reference->data[CHANNELS * i + (size_t)c];
+            sum += (v - r) * (v - r) / (r * r + eps);
+        }
+        map->data[i] = pair_finite(pair, i) ? (float)(sum / CHANNELS) : NAN;
+    }
+    return true;
+}
+
+/* |e_t - e_(t-1)|^2, mean over channels. */
+static double residual_change(const struct irb_pair *previous, const struct irb_pair *current,
+                              size_t pixel)
+{
+    double sum = 0;
+    for (size_t i = CHANNELS * pixel; i < CHANNELS * (pixel + 1); i++) {
+        double now = (double)current->test->data[i] - current->reference->data[i];
+        double before = (double)previous->test->data[i] - previous->reference->data[i];
+        sum += (now - before) * (now - before);
+    }
+    return sum / CHANNELS;
+}
+
+static double magnitude(const float *rgb)
+{
+    double sum = 0;
+    for (int c = 0; c < CHANNELS; c++)
+        sum += (double)rgb[c] * rgb[c];
+    return sqrt(sum / CHANNELS);
+}
+
+struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
+                                            const struct irb_pair *current, double mean_reference)
+{
+    const double pop_threshold = 0.1, dark_share = 0.1; /* of the definition in the header */
+    double sum = 0;
+    long count = 0, pops = 0;
+    size_t pixels = irb_image_pixels(current->test);
+    for (size_t i = 0; i < pixels; i++) {
+        if (masked(previous->mask, i) || masked(current->mask, i))
+            continue;
+        if (!pair_finite(previous, i) || !pair_finite(current, i))
+            continue;
+        double change = residual_change(previous, current, i);
+        double level = magnitude(current->reference->data + CHANNELS * i);
+        level = fmax(level, dark_share * mean_reference);
+        sum += change;
+        pops += sqrt(change) > pop_threshold * level;
+        count++;
+    }
+    double residual = sqrt(sum / (double)count);
+    return (struct irb_flicker_scores){
+        .flicker = residual == 0 ? 0 : residual / mean_reference,
+        .pop_share = (double)pops / (double)count,
+    };
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+struct irb_summary irb_summarise(const double *values, int count)
+{
+    struct irb_summary summary = {NAN, NAN, NAN, NAN};
+    double *sorted = count > 0 ? malloc((size_t)count * sizeof *sorted) : NULL;
+    int n = 0;
+    for (int i = 0; sorted && i < count; i++)
+        if (!isnan(values[i]))
+            sorted[n++] = values[i];
+    if (n > 0) {
+        qsort(sorted, (size_t)n, sizeof *sorted, ascending);
+        double sum = 0;
+        for (int i = 0; i < n; i++)
+            sum += sorted[i];
+        summary.mean = sum / n;
+        summary.median = n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
+        /* nearest rank: ceil(0.95 n), in integers */
+        summary.p95 = sorted[(95 * n + 99) / 100 - 1];
+        summary.worst = sorted[n - 1];
+    }
+    free(sorted);
+    return summary;
+}
