@@ -30,8 +30,8 @@ struct irb_animation {
     enum irb_interpolation light_interpolation, camera_interpolation;
     enum irb_light_type light_type;
     enum irb_falloff falloff;
-    float beam_half_width;  /* directional, metres; 0 = wide enough for the scene */
-    float z_near, z_far;    /* camera; 0 = from the scene's bounds */
+    float beam_half_width;            /* directional, metres; 0 = wide enough for the scene */
+    float z_near, z_far;              /* camera; 0 = from the scene's bounds */
     struct irb_light_key *light_keys; /* owned */
     int light_key_count;
     struct irb_camera_key *camera_keys; /* owned */
@@ -41,7 +41,9 @@ struct irb_animation {
 void irb_animation_destroy(struct irb_animation *animation); /* frees what it owns, zeroes it */
 
 /* Checks what cannot be evaluated: no keys, keys out of order, position equal to target, angles
- * out of range, non-finite values, up parallel to the view. `where` is put before the message. */
+ * out of range, non-finite values, up parallel to the view. The message names the key ("light key
+ * 2:
+ * ..."); put the file before it with irb_error_prefix(). */
 bool irb_animation_validate(const struct irb_animation *animation, struct irb_error *err);
 
 /* Light and camera of frame `frame` (clamped to the first and last key). Frames below 0 are the

@@ -25,7 +25,7 @@ struct irb_light {
     float outer;        /* spot: half-angle omega_s of the cone, radians, (0, pi/2) */
     float inner;        /* spot: half-angle up to which SMOOTH is 1, radians, [0, outer) */
     enum irb_falloff falloff;
-    float half_width;   /* directional: half side of the square beam, metres */
+    float half_width; /* directional: half side of the square beam, metres */
 };
 
 /* Right and up of the light's image; the same in the RSM and the reference. */
@@ -48,8 +48,8 @@ void irb_light_hash(const struct irb_light *light, struct irb_hash *hash);
 struct irb_camera {
     float position[3];
     float target[3];
-    float up[3];       /* unit; not parallel to the view */
-    float vertical_fov; /* full angle, radians */
+    float up[3];         /* unit; not parallel to the view */
+    float vertical_fov;  /* full angle, radians */
     float z_near, z_far; /* metres, set from the scene's bounds where the config gives none */
 };
 

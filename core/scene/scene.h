@@ -42,9 +42,9 @@ struct irb_object {
 struct irb_scene {
     char name[64];
     uint32_t vertex_count, triangle_count;
-    float *positions; /* 3 a vertex, world space at rest, metres; owned */
-    float *normals;   /* 3 a vertex, unit; owned */
-    float *texcoords; /* 2 a vertex; owned */
+    float *positions;  /* 3 a vertex, world space at rest, metres; owned */
+    float *normals;    /* 3 a vertex, unit; owned */
+    float *texcoords;  /* 2 a vertex; owned */
     uint32_t *indices; /* 3 a triangle; owned */
     struct irb_material *materials;
     int material_count;
@@ -52,14 +52,15 @@ struct irb_scene {
     int texture_count;
     struct irb_object *objects;
     int object_count;
-    float bounds_min[3], bounds_max[3]; /* of all vertices, at rest */
+    float bounds_min[3], bounds_max[3]; /* of all vertices that a triangle uses, at rest */
 };
 
 void irb_scene_destroy(struct irb_scene *scene); /* frees the scene too; NULL is fine */
 
 /* Loads a built-in by its name, or a .gltf/.glb file by its path. IRB_E_INPUT names what is wrong:
  * a missing or truncated file, an index out of range, a non-finite vertex (mesh and number), no
- * triangles, a texture that is missing. Warnings (dropped lights, degenerate triangles) go to log. */
+ * triangles, a texture that is missing. Warnings (dropped lights, degenerate triangles) go to log.
+ */
 struct irb_scene *irb_scene_load(const char *name_or_path, struct irb_log *log,
                                  struct irb_error *err);
 
