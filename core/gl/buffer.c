@@ -19,15 +19,16 @@ struct irb_buffer *irb_buffer_create(struct irb_gl *gl, const char *name, int64_
         return NULL;
     }
     buffer->gl = gl;
-    buffer->bytes = bytes;
     gl->api.CreateBuffers(1, &buffer->id);
     gl->api.NamedBufferStorage(buffer->id, (GLsizeiptr)bytes, data, GL_DYNAMIC_STORAGE_BIT);
-    irb_gl_account(gl, bytes);
     gl->api.ObjectLabel(GL_BUFFER, buffer->id, -1, name);
-    if (irb_gl_check(gl, name, err))
-        return buffer;
-    irb_buffer_destroy(buffer);
-    return NULL;
+    if (!irb_gl_check(gl, name, err)) {
+        irb_buffer_destroy(buffer);
+        return NULL;
+    }
+    buffer->bytes = bytes;
+    irb_gl_account(gl, bytes);
+    return buffer;
 }
 
 void irb_buffer_destroy(struct irb_buffer *buffer)

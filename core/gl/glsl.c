@@ -27,6 +27,21 @@ static int add_file(struct irb_glsl *glsl, const char *path)
     return glsl->file_count++;
 }
 
+/* Appends one line (without its end) that comes from `line` of file number `file`. */
+static void emit_line(struct irb_glsl *glsl, const char *text, size_t length, int file, int line)
+{
+    irb_str_append(&glsl->text, text, length);
+    irb_str_append(&glsl->text, "\n", 1);
+    int n = glsl->line_count++;
+    if ((n & (n - 1)) == 0) { /* full at each power of two */
+        size_t capacity = n ? 2 * (size_t)n : 1;
+        glsl->origins = realloc(glsl->origins, capacity * sizeof *glsl->origins);
+        if (!glsl->origins)
+            abort();
+    }
+    glsl->origins[n] = (struct irb_glsl_origin){file, line};
+}
+
 static int find_file(const struct irb_glsl *glsl, const char *path)
 {
     for (int i = 1; i < glsl->file_count; i++)
@@ -112,11 +127,10 @@ static bool expand_include(struct expander *x, int from, int line, const char *p
         return irb_fail(err, IRB_E_INPUT, "%s:%d: #include is nested more than %d deep", where,
                         line, MAX_DEPTH);
     int before = glsl->file_count;
-    if (!expand_file(x, path, err))
-        return glsl->file_count == before ? irb_error_prefix(err, "%s:%d: #include", where, line)
-                                          : false;
-    irb_str_printf(&glsl->text, "#line %d %d\n", line + 1, from);
-    return true;
+    if (expand_file(x, path, err))
+        return true;
+    bool missing = glsl->file_count == before; /* else the error names a line inside it */
+    return missing ? irb_error_prefix(err, "%s:%d: #include", where, line) : false;
 }
 
 static bool expand_line(struct expander *x, int file, int line, const char *text, size_t length,
@@ -129,8 +143,7 @@ static bool expand_line(struct expander *x, int file, int line, const char *text
                         "%s:%d: #version is put first by the loader; remove it here", path, line);
     const char *rest = directive(text, end, "include");
     if (!rest) {
-        irb_str_append(&x->glsl->text, text, length);
-        irb_str_append(&x->glsl->text, "\n", 1);
+        emit_line(x->glsl, text, length, file, line);
         return true;
     }
     char *included = include_path(rest, end);
@@ -150,18 +163,15 @@ static bool expand_file(struct expander *x, const char *path, struct irb_error *
         return false;
     int file = add_file(x->glsl, path);
     x->stack[x->depth++] = file;
-    irb_str_printf(&x->glsl->text, "#line 1 %d\n", file);
     bool ok = true, comment = false;
     int line = 1;
     for (const char *at = text; ok && *at; line++) {
         size_t length = strcspn(at, "\n");
         size_t shown = length && at[length - 1] == '\r' ? length - 1 : length;
-        if (comment) {
-            irb_str_append(&x->glsl->text, at, shown);
-            irb_str_append(&x->glsl->text, "\n", 1);
-        } else {
+        if (comment)
+            emit_line(x->glsl, at, shown, file, line);
+        else
             ok = expand_line(x, file, line, at, shown, err);
-        }
         comment = comment_after(at, shown, comment);
         at += length + (at[length] == '\n');
     }
@@ -175,9 +185,14 @@ bool irb_glsl_expand(struct irb_glsl *glsl, const char *shader_dir, const char *
 {
     struct expander x = {.glsl = glsl, .shader_dir = shader_dir};
     add_file(glsl, "defines");
-    irb_str_printf(&glsl->text, "#version 450 core\n#line 1 0\n");
-    for (; defines && *defines; defines++)
-        irb_str_printf(&glsl->text, "#define %s\n", *defines);
+    static const char version[] = "#version 450 core";
+    emit_line(glsl, version, strlen(version), 0, 0);
+    for (int i = 0; defines && defines[i]; i++) {
+        struct irb_str define = {0};
+        irb_str_printf(&define, "#define %s", defines[i]);
+        emit_line(glsl, define.text, define.length, 0, i + 1);
+        irb_str_free(&define);
+    }
     return expand_file(&x, path, err);
 }
 
@@ -187,22 +202,26 @@ void irb_glsl_free(struct irb_glsl *glsl)
     for (int i = 0; i < glsl->file_count; i++)
         free(glsl->files[i]);
     free(glsl->files);
+    free(glsl->origins);
     *glsl = (struct irb_glsl){0};
 }
 
-/* One line of a log: source number, line number, and the message. */
-static bool parse_log_line(const char *line, int *source, int *number, const char **message)
+/* One error line of a log: the line number that it names, and the message. */
+static bool parse_log_line(const char *line, int *number, const char **message)
 {
-    int used = 0, column;
-    if (sscanf(line, "%d:%d(%d): %n", source, number, &column, &used) == 3 && used) /* Mesa */
+    int used = 0, source, column;
+    if (sscanf(line, "%d:%d(%d): %n", &source, number, &column, &used) == 3 && used) /* Mesa */
         *message = line + used;
-    else if (sscanf(line, "%d(%d) : %n", source, number, &used) == 2 && used) /* NVIDIA */
+    else if (sscanf(line, "%d(%d) : %n", &source, number, &used) == 2 && used) /* NVIDIA */
         *message = line + used;
-    else if (sscanf(line, "ERROR: %d:%d: %n", source, number, &used) == 2 && used)
+    else if (sscanf(line, "ERROR: %d:%d: %n", &source, number, &used) == 2 && used)
         *message = line + used;
     else
         return false;
-    return strncmp(*message, "warning", 7) != 0;
+    static const char error[] = "error: ";
+    if (strncmp(*message, error, strlen(error)) == 0)
+        *message += strlen(error);
+    return strncmp(*message, "warning", strlen("warning")) != 0;
 }
 
 void irb_glsl_describe_log(const struct irb_glsl *glsl, const char *log, char *out, size_t size)
@@ -213,20 +232,21 @@ void irb_glsl_describe_log(const struct irb_glsl *glsl, const char *log, char *o
         size_t length = strcspn(at, "\n");
         char line[512];
         snprintf(line, sizeof line, "%.*s", (int)length, at);
-        int source, number;
+        int number;
         const char *message;
-        if (parse_log_line(line, &source, &number, &message)) {
-            const char *file = source >= 0 && source < glsl->file_count ? glsl->files[source] : "?";
-            if (strncmp(message, "error: ", 7) == 0)
-                message += 7;
-            if (errors++ == 0)
-                snprintf(first, sizeof first, "%.200s:%d: %.280s", file, number, message);
+        if (parse_log_line(line, &number, &message) && errors++ == 0) {
+            bool known = number >= 1 && number <= glsl->line_count;
+            struct irb_glsl_origin from = {0, number};
+            if (known)
+                from = glsl->origins[number - 1];
+            snprintf(first, sizeof first, "%.200s:%d: %.280s", glsl->files[from.file], from.line,
+                     message);
         }
         at += length + (at[length] == '\n');
     }
-    const char *root = glsl->file_count > 1 ? glsl->files[1] : "shader";
+    const char *root = glsl->files[glsl->file_count > 1 ? 1 : 0];
     if (!errors)
-        snprintf(out, size, "%s: %.*s", root, (int)strcspn(log, "\n"), *log ? log : "no log");
+        snprintf(out, size, "%s: %.*s", root, (int)strcspn(log, "\n"), log);
     else if (errors > 1)
         snprintf(out, size, "%s (and %d more)", first, errors - 1);
     else

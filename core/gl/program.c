@@ -25,6 +25,7 @@ static char *read_log(struct irb_gl *gl, GLuint id, bool program)
 static bool compile(struct irb_gl *gl, GLuint shader, const struct irb_glsl *glsl,
                     struct irb_error *err)
 {
+    bool clean = !gl->pending[0];
     const GLchar *text = irb_str_text(&glsl->text);
     const GLint length = (GLint)glsl->text.length;
     gl->api.ShaderSource(shader, 1, &text, &length);
@@ -37,7 +38,8 @@ static bool compile(struct irb_gl *gl, GLuint shader, const struct irb_glsl *gls
     char message[640];
     irb_glsl_describe_log(glsl, log, message, sizeof message);
     free(log);
-    gl->pending[0] = 0; /* Mesa reports the log through KHR_debug as well */
+    if (clean)
+        gl->pending[0] = 0; /* Mesa reports the log through KHR_debug as well */
     return irb_fail(err, IRB_E_INPUT, "%s", message);
 }
 
@@ -61,6 +63,7 @@ static bool attach_stage(struct irb_program *program, GLenum stage, const char *
 static bool link(struct irb_program *program, struct irb_error *err)
 {
     struct irb_gl *gl = program->gl;
+    bool clean = !gl->pending[0];
     gl->api.LinkProgram(program->id);
     GLint linked = GL_FALSE;
     gl->api.GetProgramiv(program->id, GL_LINK_STATUS, &linked);
@@ -71,7 +74,8 @@ static bool link(struct irb_program *program, struct irb_error *err)
     irb_fail(err, IRB_E_INPUT, "%s: the stages do not link: %.*s", program->name,
              (int)strcspn(first, "\n"), first);
     free(log);
-    gl->pending[0] = 0;
+    if (clean)
+        gl->pending[0] = 0;
     return false;
 }
 

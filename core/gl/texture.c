@@ -92,14 +92,15 @@ struct irb_texture *irb_texture_create(struct irb_gl *gl, const struct irb_textu
         gl->api.TextureStorage3D(t->id, t->levels, t->format, t->width, t->height, t->layers);
     else
         gl->api.TextureStorage2D(t->id, t->levels, t->format, t->width, t->height);
-    t->bytes = count_bytes(t, format->bytes);
-    irb_gl_account(gl, t->bytes);
     set_sampling(t, desc);
     gl->api.ObjectLabel(GL_TEXTURE, t->id, -1, name);
-    if (irb_gl_check(gl, name, err))
-        return t;
-    irb_texture_destroy(t);
-    return NULL;
+    if (!irb_gl_check(gl, name, err)) {
+        irb_texture_destroy(t);
+        return NULL;
+    }
+    t->bytes = count_bytes(t, format->bytes);
+    irb_gl_account(gl, t->bytes);
+    return t;
 }
 
 void irb_texture_destroy(struct irb_texture *texture)
