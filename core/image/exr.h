@@ -45,4 +45,15 @@ bool irb_exr_read(const char *path, const char *layer, const char *suffixes,
 bool irb_exr_read_layers(const char *path, const struct irb_exr_layer *layers,
                          struct irb_image *images, int layer_count, struct irb_error *err);
 
+/* A string attribute that is asked for by name. */
+struct irb_exr_value {
+    const char *name;
+    char text[128]; /* filled in; zero-terminated */
+};
+
+/* Reads string attributes of a file's header. IRB_E_INPUT names the file and the attribute that is
+ * missing, no string, or too long. */
+bool irb_exr_read_attributes(const char *path, struct irb_exr_value *values, int count,
+                             struct irb_error *err);
+
 #endif

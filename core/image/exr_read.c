@@ -254,3 +254,33 @@ bool irb_exr_read(const char *path, const char *layer, const char *suffixes,
     struct irb_exr_layer wanted = {.name = layer, .suffixes = suffixes};
     return irb_exr_read_layers(path, &wanted, image, 1, err);
 }
+
+static bool read_value(struct reader *r, struct irb_exr_value *value)
+{
+    int32_t length = 0;
+    const char *text = NULL;
+    exr_result_t result = exr_attr_get_string(r->context, 0, value->name, &length, &text);
+    if (result != EXR_ERR_SUCCESS || !text)
+        return irb_fail(r->err, IRB_E_INPUT, "%s: expected a string attribute '%s', found none",
+                        r->path, value->name);
+    if (length < 0 || (size_t)length >= sizeof value->text)
+        return irb_fail(r->err, IRB_E_INPUT,
+                        "%s: attribute '%s': expected fewer than %zu bytes, found %d", r->path,
+                        value->name, sizeof value->text, (int)length);
+    memcpy(value->text, text, (size_t)length);
+    value->text[length] = 0;
+    return true;
+}
+
+bool irb_exr_read_attributes(const char *path, struct irb_exr_value *values, int count,
+                             struct irb_error *err)
+{
+    struct reader r = {.path = path, .err = err};
+    bool ok = open_file(&r);
+    for (int i = 0; ok && i < count; i++)
+        ok = read_value(&r, &values[i]);
+    if (r.context)
+        exr_finish(&r.context);
+    free(r.stream.data);
+    return ok;
+}

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Everything that depends on Embree 3. Embree 4 has other names for three things used here: the
+ * header (embree4), RTCIntersectContext (now RTCIntersectArguments, passed last and optional), and
+ * their flags.
+ */
+#include "core/reference/tracer.h"
+
+#include <embree3/rtcore.h>
+#include <stdlib.h>
+
+struct irb_tracer {
+    RTCDevice device;
+    RTCScene scene;
+    struct surface_set surfaces;
+};
+
+static bool attach_geometry(struct irb_tracer *tracer)
+{
+    const struct surface_set *set = &tracer->surfaces;
+    RTCGeometry geometry = rtcNewGeometry(tracer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    struct vec3 *vertices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof *vertices, 3 * (size_t)set->triangle_count);
+    uint32_t *indices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof *indices, set->triangle_count);
+    if (vertices && indices) {
+        for (uint32_t i = 0; i < set->triangle_count; i++) {
+            for (uint32_t k = 3 * i; k < 3 * i + 3; k++) {
+                vertices[k] = set->triangles[i].vertex[k - 3 * i];
+                indices[k] = k;
+            }
+        }
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(tracer->scene, geometry, 0);
+    }
+    rtcReleaseGeometry(geometry);
+    return vertices && indices;
+}
+
+struct irb_tracer *irb_tracer_create(const struct irb_scene *scene, struct irb_error *err)
+{
+    struct irb_tracer *tracer = calloc(1, sizeof *tracer);
+    if (!tracer) {
+        irb_fail(err, IRB_E_MEMORY, "no memory for the tracer");
+        return NULL;
+    }
+    if (!surface_set_create(&tracer->surfaces, scene, err)) {
+        free(tracer);
+        return NULL;
+    }
+    /* One thread builds, so that the tree, and with it the order in which ties at shared edges are
+     * resolved, is the same each time. */
+    tracer->device = rtcNewDevice("threads=1");
+    if (tracer->device)
+        tracer->scene = rtcNewScene(tracer->device);
+    bool attached = tracer->scene && attach_geometry(tracer);
+    if (attached) {
+        rtcSetSceneFlags(tracer->scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(tracer->scene, RTC_BUILD_QUALITY_HIGH);
+        rtcCommitScene(tracer->scene);
+    }
+    enum RTCError error = rtcGetDeviceError(tracer->device);
+    if (!attached || error != RTC_ERROR_NONE) {
+        irb_fail(err, error == RTC_ERROR_OUT_OF_MEMORY ? IRB_E_MEMORY : IRB_E_INTERNAL,
+                 "Embree could not build scene %s (error %d)", scene->name, (int)error);
+        irb_tracer_destroy(tracer);
+        return NULL;
+    }
+    return tracer;
+}
+
+void irb_tracer_destroy(struct irb_tracer *tracer)
+{
+    if (!tracer)
+        return;
+    if (tracer->scene)
+        rtcReleaseScene(tracer->scene);
+    if (tracer->device)
+        rtcReleaseDevice(tracer->device);
+    surface_set_destroy(&tracer->surfaces);
+    free(tracer);
+}
+
+const struct surface_set *irb_tracer_surfaces(const struct irb_tracer *tracer)
+{
+    return &tracer->surfaces;
+}
+
+void *irb_tracer_embree_scene(const struct irb_tracer *tracer)
+{
+    return tracer->scene;
+}
+
+static void record(struct trace_recording *recording, struct vec3 origin, struct vec3 direction,
+                   float near, float far, bool occlusion)
+{
+    if (recording->count < recording->capacity)
+        recording->records[recording->count++] =
+            (struct trace_record){origin, direction, near, far, occlusion};
+}
+
+bool trace_closest(struct trace_context *context, struct vec3 origin, struct vec3 direction,
+                   float near, float far, struct trace_hit *hit)
+{
+    struct RTCIntersectContext embree;
+    rtcInitIntersectContext(&embree);
+    struct RTCRayHit query;
+    query.ray = (struct RTCRay){
+        .org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = near,
+        .dir_x = direction.x, .dir_y = direction.y, .dir_z = direction.z,
+        .tfar = far, .mask = ~0u,
+    };
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    context->rays++;
+    if (__builtin_expect(context->recording != NULL, 0))
+        record(context->recording, origin, direction, near, far, false);
+    rtcIntersect1(context->tracer->scene, &embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+    *hit = (struct trace_hit){query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
+    return true;
+}
+
+bool trace_occluded(struct trace_context *context, struct vec3 origin, struct vec3 direction,
+                    float near, float far)
+{
+    struct RTCIntersectContext embree;
+    rtcInitIntersectContext(&embree);
+    struct RTCRay ray = {
+        .org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = near,
+        .dir_x = direction.x, .dir_y = direction.y, .dir_z = direction.z,
+        .tfar = far, .mask = ~0u,
+    };
+    context->rays++;
+    if (__builtin_expect(context->recording != NULL, 0))
+        record(context->recording, origin, direction, near, far, true);
+    rtcOccluded1(context->tracer->scene, &embree, &ray);
+    return ray.tfar < 0; /* Embree sets -inf where something is in the way */
+}
