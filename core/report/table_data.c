@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/report/table_data.h"
+#include "core/base/str.h"
+#include "core/score/metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A growing list of times. */
+struct series {
+    double *values; /* owned */
+    int count, capacity;
+};
+
+static void append(struct series *series, double value)
+{
+    if (series->count == series->capacity) {
+        series->capacity = series->capacity ? 2 * series->capacity : 64;
+        series->values = realloc(series->values, (size_t)series->capacity * sizeof(double));
+        if (!series->values)
+            abort(); /* a table's worth of numbers: nothing that holds results is lost */
+    }
+    series->values[series->count++] = value;
+}
+
+/* The stage times of one trial as they are read, in order of frames. */
+struct timing {
+    struct irb_table_data *data;
+    struct series *stages; /* one a stage of the data */
+    int stage_capacity;
+    struct series frames; /* sums over the stages of a frame */
+    int frame;            /* that frames' last sum is for */
+};
+
+static int stage_index(struct irb_table_data *data, const char *name)
+{
+    for (int i = 0; i < data->stage_count; i++)
+        if (!strcmp(data->stages[i], name))
+            return i;
+    data->stages = realloc(data->stages, (size_t)(data->stage_count + 1) * sizeof *data->stages);
+    if (!data->stages)
+        abort();
+    data->stages[data->stage_count] = irb_strdup(name);
+    return data->stage_count++;
+}
+
+static void read_stage(void *user, int frame, const char *name, double ms)
+{
+    struct timing *t = user;
+    if (frame < 0 || isnan(ms))
+        return;
+    int stage = stage_index(t->data, name);
+    if (stage >= t->stage_capacity) {
+        t->stages = realloc(t->stages, (size_t)(stage + 1) * sizeof *t->stages);
+        if (!t->stages)
+            abort();
+        while (t->stage_capacity <= stage)
+            t->stages[t->stage_capacity++] = (struct series){0};
+    }
+    append(&t->stages[stage], ms);
+    if (!t->frames.count || t->frame != frame)
+        append(&t->frames, 0);
+    t->frames.values[t->frames.count - 1] += ms;
+    t->frame = frame;
+}
+
+static void read_score(void *user, int frame, const char *name, double value)
+{
+    struct irb_table_row *row = user;
+    int metric = frame == -1 ? irb_metric_find(name) : -1;
+    if (metric >= 0)
+        row->metrics[metric] = value;
+}
+
+static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
+                     struct irb_store *store, struct irb_error *err)
+{
+    struct timing timing = {.data = data};
+    for (int i = 0; i < IRB_METRIC_COUNT; i++)
+        row->metrics[i] = NAN;
+    bool ok = irb_store_read_scores(store, row->trial->id, read_score, row, err) &&
+              irb_store_read_stages(store, row->trial->id, read_stage, &timing, err);
+    struct irb_summary frames = irb_summarise(timing.frames.values, timing.frames.count);
+    row->metrics[IRB_METRIC_frame_ms] = frames.median;
+    row->metrics[IRB_METRIC_frame_ms_p95] = frames.p95;
+    row->metrics[IRB_METRIC_frame_ms_worst] = frames.worst;
+    /* later trials may bring more stages: pad_stages() makes the rows equally long */
+    row->stage_ms = calloc((size_t)timing.stage_capacity + 1, sizeof(double));
+    if (!row->stage_ms)
+        abort();
+    row->stage_count = timing.stage_capacity;
+    for (int i = 0; i < timing.stage_capacity; i++) {
+        row->stage_ms[i] = irb_summarise(timing.stages[i].values, timing.stages[i].count).median;
+        free(timing.stages[i].values);
+    }
+    free(timing.stages);
+    free(timing.frames.values);
+    return ok;
+}
+
+/* Gives every row an entry for every stage. */
+static void pad_stages(struct irb_table_data *data)
+{
+    for (int i = 0; i < data->row_count; i++) {
+        struct irb_table_row *row = &data->rows[i];
+        row->stage_ms = realloc(row->stage_ms, ((size_t)data->stage_count + 1) * sizeof(double));
+        if (!row->stage_ms)
+            abort();
+        while (row->stage_count < data->stage_count)
+            row->stage_ms[row->stage_count++] = NAN;
+    }
+}
+
+/* Rows in the order of the store, but with the trials of a scene together. */
+static void order_rows(struct irb_table_data *data)
+{
+    const struct irb_store_trial_list *trials = &data->trials;
+    for (int i = 0; i < trials->count; i++) {
+        bool first = true;
+        for (int j = 0; j < i; j++)
+            first = first && strcmp(trials->rows[j].scene, trials->rows[i].scene);
+        for (int j = i; first && j < trials->count; j++)
+            if (!strcmp(trials->rows[j].scene, trials->rows[i].scene))
+                data->rows[data->row_count++].trial = &trials->rows[j];
+    }
+}
+
+bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store,
+                         struct irb_error *err)
+{
+    *data = (struct irb_table_data){0};
+    if (!irb_store_trials(store, &data->trials, err))
+        return false;
+    data->rows = calloc((size_t)data->trials.count + 1, sizeof *data->rows);
+    if (!data->rows)
+        abort();
+    order_rows(data);
+    bool ok = true;
+    for (int i = 0; i < data->row_count && ok; i++)
+        ok = read_row(data, &data->rows[i], store, err);
+    if (ok)
+        pad_stages(data);
+    else
+        irb_table_data_destroy(data);
+    return ok;
+}
+
+void irb_table_data_destroy(struct irb_table_data *data)
+{
+    for (int i = 0; i < data->row_count; i++)
+        free(data->rows[i].stage_ms);
+    for (int i = 0; i < data->stage_count; i++)
+        free(data->stages[i]);
+    free(data->stages);
+    free(data->rows);
+    irb_store_trial_list_destroy(&data->trials);
+    *data = (struct irb_table_data){0};
+}
