@@ -28,8 +28,8 @@ static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum se
 
 static bool is_software_renderer(const char *renderer)
 {
-    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SWR", "lavapipe",
-                                        "Software Rasterizer"};
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast",
+                                        "SWR",      "lavapipe", "Software Rasterizer"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strstr(renderer, names[i]))
             return true;

@@ -26,17 +26,17 @@ struct irb_gl_desc {
 };
 
 struct irb_gl {
-    struct irb_gl_api api;     /* gl->api.BindTexture(...) */
-    enum irb_backend backend;  /* what was chosen: OSMESA or EGL */
-    bool software;             /* llvmpipe or another CPU rasteriser */
+    struct irb_gl_api api;                   /* gl->api.BindTexture(...) */
+    enum irb_backend backend;                /* what was chosen: OSMESA or EGL */
+    bool software;                           /* llvmpipe or another CPU rasteriser */
     const char *vendor, *renderer, *version; /* the driver's strings */
-    const char *platform;      /* "osmesa", "egl-device", "egl-surfaceless" */
-    int64_t bytes;             /* live bytes of textures, buffers and renderbuffers */
-    int64_t peak_bytes;        /* highest value of `bytes` so far */
-    char pending[512];         /* first KHR_debug error since the last check, "" when none */
-    const char *shader_dir;    /* owned copy, or NULL */
+    const char *platform;                    /* "osmesa", "egl-device", "egl-surfaceless" */
+    int64_t bytes;                           /* live bytes of textures, buffers and renderbuffers */
+    int64_t peak_bytes;                      /* highest value of `bytes` so far */
+    char pending[512];      /* first KHR_debug error since the last check, "" when none */
+    const char *shader_dir; /* owned copy, or NULL */
     struct irb_log *log;
-    void *native;              /* the backend's own state */
+    void *native;                /* the backend's own state */
     unsigned empty_vertex_array; /* for draws that take no attributes */
 };
 

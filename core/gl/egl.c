@@ -55,10 +55,11 @@ static bool has_extension(const char *list, const char *name)
 static const char *error_name(EGLint code)
 {
     static const char *const names[] = {
-        "EGL_SUCCESS",         "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",    "EGL_BAD_ALLOC",
-        "EGL_BAD_ATTRIBUTE",   "EGL_BAD_CONFIG",      "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE",
-        "EGL_BAD_DISPLAY",     "EGL_BAD_MATCH",       "EGL_BAD_NATIVE_PIXMAP",
-        "EGL_BAD_NATIVE_WINDOW", "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",   "EGL_CONTEXT_LOST"};
+        "EGL_SUCCESS",       "EGL_NOT_INITIALIZED",     "EGL_BAD_ACCESS",
+        "EGL_BAD_ALLOC",     "EGL_BAD_ATTRIBUTE",       "EGL_BAD_CONFIG",
+        "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY",
+        "EGL_BAD_MATCH",     "EGL_BAD_NATIVE_PIXMAP",   "EGL_BAD_NATIVE_WINDOW",
+        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",         "EGL_CONTEXT_LOST"};
     size_t i = (size_t)(code - EGL_SUCCESS);
     return i < sizeof names / sizeof *names ? names[i] : "unknown EGL error";
 }
@@ -94,7 +95,7 @@ static bool open_library(struct egl *e, struct irb_error *err)
     if (!e->library)
         return irb_fail(err, IRB_E_BACKEND, "libEGL.so.1 not found (apt install libegl1)");
 #define X(type, name)                                                                              \
-    e->name = (type)irb_gl_symbol(e->library, "egl" #name);                                                \
+    e->name = (type)irb_gl_symbol(e->library, "egl" #name);                                        \
     if (!e->name)                                                                                  \
         return irb_fail(err, IRB_E_BACKEND, "libEGL.so.1 lacks egl" #name);
     EGL_FUNCTIONS(X)
@@ -176,8 +177,7 @@ static bool start(struct egl *e, EGLDisplay display, struct irb_error *err)
 static int query_devices(struct egl *e, EGLDeviceEXT devices[MAX_DEVICES])
 {
     EGLint count = 0;
-    if (!e->QueryDevices || !e->QueryDeviceString ||
-        !e->QueryDevices(MAX_DEVICES, devices, &count))
+    if (!e->QueryDevices || !e->QueryDeviceString || !e->QueryDevices(MAX_DEVICES, devices, &count))
         return 0;
     return count;
 }
@@ -227,8 +227,9 @@ struct irb_gl_native *irb_egl_create(enum irb_egl_choice choice, struct irb_erro
         (start_surfaceless(e, &surfaceless) || start_device(e, true, &software)))
         return &e->native;
     if (choice == IRB_EGL_ANY)
-        irb_fail(err, IRB_E_BACKEND, "hardware: %.200s; surfaceless: %.200s; software device: %.200s",
-                 device.message, surfaceless.message, software.message);
+        irb_fail(err, IRB_E_BACKEND,
+                 "hardware: %.200s; surfaceless: %.200s; software device: %.200s", device.message,
+                 surfaceless.message, software.message);
     else
         irb_fail(err, IRB_E_BACKEND, "hardware: %s", device.message);
     destroy(&e->native);
@@ -250,8 +251,9 @@ int irb_egl_list_devices(FILE *out)
             node = e->QueryDeviceString(devices[i], EGL_DRM_DEVICE_FILE_EXT);
         if (has_extension(extensions, "EGL_EXT_device_persistent_id"))
             vendor = e->QueryDeviceString(devices[i], EGL_DRIVER_NAME_EXT);
-        fprintf(out, "  device %d: %s%s%s%s%s\n", i, is_software(e, devices[i]) ? "software" : "GPU",
-                vendor ? ", driver " : "", vendor ? vendor : "", node ? ", " : "", node ? node : "");
+        fprintf(out, "  device %d: %s%s%s%s%s\n", i,
+                is_software(e, devices[i]) ? "software" : "GPU", vendor ? ", driver " : "",
+                vendor ? vendor : "", node ? ", " : "", node ? node : "");
     }
     destroy(&e->native);
     return count;
@@ -262,8 +264,9 @@ int irb_egl_list_devices(FILE *out)
 struct irb_gl_native *irb_egl_create(enum irb_egl_choice choice, struct irb_error *err)
 {
     (void)choice;
-    irb_fail(err, IRB_E_BACKEND, "not built in (apt install libegl-dev, then meson setup "
-                                 "-Degl=enabled)");
+    irb_fail(err, IRB_E_BACKEND,
+             "not built in (apt install libegl-dev, then meson setup "
+             "-Degl=enabled)");
     return NULL;
 }
 

@@ -45,9 +45,8 @@ static bool check_attachments(const char *name, struct irb_texture *const *colou
         bool is_depth =
             format->kind == IRB_FORMAT_DEPTH || format->kind == IRB_FORMAT_DEPTH_STENCIL;
         if (is_depth != (i == count))
-            return irb_fail(err, IRB_E_INTERNAL,
-                            "%s: framebuffer incomplete: %s as %s attachment", name, format->name,
-                            i == count ? "depth" : "colour");
+            return irb_fail(err, IRB_E_INTERNAL, "%s: framebuffer incomplete: %s as %s attachment",
+                            name, format->name, i == count ? "depth" : "colour");
     }
     return true;
 }

@@ -40,7 +40,8 @@ bool irb_glsl_expand(struct irb_glsl *glsl, const char *shader_dir, const char *
 void irb_glsl_free(struct irb_glsl *glsl);
 
 /* The first error in a driver's compile log as "file:line: message" (and how many follow), on one
- * line. Understands Mesa "0:12(5): error: ...", NVIDIA "0(12) : error ...", others "ERROR: 0:12: ...". */
+ * line. Understands Mesa "0:12(5): error: ...", NVIDIA "0(12) : error ...", others "ERROR: 0:12:
+ * ...". */
 void irb_glsl_describe_log(const struct irb_glsl *glsl, const char *log, char *out, size_t size);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * OpenGL objects with an owner and a size. Created objects are the caller's and end with their
- * destroy function (NULL is fine); bytes are counted in gl->bytes. All creation goes through direct state
- * access, so nothing is left bound.
+ * destroy function (NULL is fine); bytes are counted in gl->bytes. All creation goes through direct
+ * state access, so nothing is left bound.
  */
 #ifndef IRB_GL_OBJECTS_H
 #define IRB_GL_OBJECTS_H
@@ -13,14 +13,14 @@
 #include <stddef.h>
 
 struct irb_texture_desc {
-    const char *name;          /* for messages and debug labels */
-    unsigned format;           /* GL_RGBA32F, GL_R32UI, GL_DEPTH_COMPONENT32F, ... */
+    const char *name; /* for messages and debug labels */
+    unsigned format;  /* GL_RGBA32F, GL_R32UI, GL_DEPTH_COMPONENT32F, ... */
     int width, height;
-    int layers;                /* 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY */
-    int levels;                /* 0 means 1 */
-    bool linear;               /* bilinear filter; else nearest */
-    bool repeat;               /* wrap; else clamp to edge */
-    bool shadow_compare;       /* depth comparison (GL_LEQUAL) */
+    int layers;          /* 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY */
+    int levels;          /* 0 means 1 */
+    bool linear;         /* bilinear filter; else nearest */
+    bool repeat;         /* wrap; else clamp to edge */
+    bool shadow_compare; /* depth comparison (GL_LEQUAL) */
 };
 
 struct irb_texture {

@@ -12,14 +12,11 @@ static struct irb_error err;
 
 static struct irb_texture *texture(unsigned format, int width, int height, int layers)
 {
-    struct irb_texture *t =
-        irb_texture_create(gl,
-                           &(struct irb_texture_desc){.name = "test",
-                                                      .format = format,
-                                                      .width = width,
-                                                      .height = height,
-                                                      .layers = layers},
-                           &err);
+    struct irb_texture *t = irb_texture_create(
+        gl,
+        &(struct irb_texture_desc){
+            .name = "test", .format = format, .width = width, .height = height, .layers = layers},
+        &err);
     if (!t)
         fail_msg("%s", err.message);
     return t;
@@ -130,7 +127,8 @@ static void test_texture_errors(void **data)
         const char *part;
     } cases[] = {
         {{.name = "a", .format = GL_RGBA32F, .width = 0, .height = 4}, "a: expected a size of 1.."},
-        {{.name = "a", .format = GL_RGBA32F, .width = 4, .height = 1 << 30}, "found 4 x 1073741824"},
+        {{.name = "a", .format = GL_RGBA32F, .width = 4, .height = 1 << 30},
+         "found 4 x 1073741824"},
         {{.name = "a", .format = 0x1234, .width = 4, .height = 4}, "a: texture format 0x1234"},
         {{.name = "a", .format = GL_R8, .width = 4, .height = 4, .levels = 4}, "0..3 levels"},
         {{.name = "a", .format = GL_R8, .width = 4, .height = 4, .layers = -1}, "layers, found -1"},

@@ -105,8 +105,9 @@ static void test_compile_error_names_file_and_line(void **data)
 static void test_link_error_names_the_program(void **data)
 {
     (void)data;
-    fixture_write(folder, "t/link.frag", "in vec3 absent; out vec4 c;\n"
-                                         "void main() { c = vec4(absent, 1.0); }\n");
+    fixture_write(folder, "t/link.frag",
+                  "in vec3 absent; out vec4 c;\n"
+                  "void main() { c = vec4(absent, 1.0); }\n");
     assert_null(fragment_program("t/link.frag", NULL));
     REQUIRE_CONTAINS(err.message, "test program: the stages do not link: ");
     REQUIRE_CONTAINS(err.message, "absent");
@@ -136,9 +137,10 @@ static void test_folder_is_laid_over(void **data)
     irb_program_destroy(p);
     char before[33], after[33];
     irb_shader_hash(gl, before);
-    fixture_write(folder, "gl/fullscreen.vert",
-                  "out vec2 uv; void main() { uv = vec2(7.0);\n"
-                  "gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }\n");
+    fixture_write(
+        folder, "gl/fullscreen.vert",
+        "out vec2 uv; void main() { uv = vec2(7.0);\n"
+        "gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }\n");
     irb_shader_hash(gl, after);
     assert_string_not_equal(before, after);
     assert_int_equal(strlen(after), 32);

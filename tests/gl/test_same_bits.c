@@ -24,17 +24,16 @@ static const char fragment[] =
     "    color = vec4(sum, pow(abs(p.x), 2.2), inversesqrt(abs(p.y)), dFdx(sum));\n"
     "}\n";
 
-static const char compute[] =
-    "layout(local_size_x = 64) in;\n"
-    "layout(std430, binding = 0) buffer Out { uint histogram[64]; };\n"
-    "shared float share[64];\n"
-    "void main() {\n"
-    "    uint i = gl_GlobalInvocationID.x, l = gl_LocalInvocationID.x;\n"
-    "    share[l] = log(float(i) + 1.0) * atan(float(i), 3.0);\n"
-    "    barrier();\n"
-    "    float v = share[63u - l] + share[l];\n"
-    "    atomicAdd(histogram[l], floatBitsToUint(v) >> 4);\n"
-    "}\n";
+static const char compute[] = "layout(local_size_x = 64) in;\n"
+                              "layout(std430, binding = 0) buffer Out { uint histogram[64]; };\n"
+                              "shared float share[64];\n"
+                              "void main() {\n"
+                              "    uint i = gl_GlobalInvocationID.x, l = gl_LocalInvocationID.x;\n"
+                              "    share[l] = log(float(i) + 1.0) * atan(float(i), 3.0);\n"
+                              "    barrier();\n"
+                              "    float v = share[63u - l] + share[l];\n"
+                              "    atomicAdd(histogram[l], floatBitsToUint(v) >> 4);\n"
+                              "}\n";
 
 struct result {
     struct irb_image image;
