@@ -20,16 +20,20 @@ struct irb_rsm {
     struct irb_texture *flux;     /* RGBA32F: reflected flux Phi_p = k_d I dw_p (W); flux in,
                                      averaged over the channels (W) */
     struct irb_texture *specular; /* RGBA32F: k_s; exponent: for importance (thesis 4.5) */
-    struct irb_texture *depth;    /* DEPTH_COMPONENT32F */
+    struct irb_texture *depth;    /* DEPTH_COMPONENT32F, reversed (1 near, 0 far): the rasteriser's
+                                     own, for comparisons take the distance in normal.w */
     struct irb_framebuffer *framebuffer;
     struct irb_program *program;
-    float view_projection[16];    /* world -> clip of the last render */
+    float view_projection[16];    /* world -> clip of the last render, depth 1..0 */
+    float half_extent;            /* of the image in the last render: tan(omega_s) at distance 1, or
+                                     the beam's half side (m) */
     struct irb_gl *gl;            /* borrowed */
 };
 
 struct irb_rsm *irb_rsm_create(struct irb_gl *gl, int resolution, struct irb_error *err);
 void irb_rsm_destroy(struct irb_rsm *rsm);
-/* Near and far come from the scene's bounds. */
+/* Spot: nothing nearer than 1e-5 of the current bounds' diagonal (along the axis) is seen, and there
+ * is no far end. Directional: from the light's plane to the end of the bounds. */
 bool irb_rsm_render(struct irb_rsm *rsm, const struct irb_scene_gl *scene,
                     const struct irb_light *light, struct irb_error *err);
 

@@ -13,6 +13,7 @@ struct irb_scene_gl {
     const struct irb_scene *scene; /* borrowed */
     struct irb_gl *gl;             /* borrowed */
     struct irb_buffer *positions, *normals, *texcoords, *indices;
+    struct irb_buffer *flat_normals; /* one vec4 a triangle: unit normal at rest; 0 */
     struct irb_texture **textures; /* one a scene texture, sRGB-decoded, mipmapped */
     unsigned vertex_array;
 };
@@ -21,8 +22,10 @@ struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_sce
                                          struct irb_error *err);
 void irb_scene_gl_destroy(struct irb_scene_gl *scene);
 
-/* Draws every object with `program`, which has the uniforms of shaders/frame/geometry.glsl (model
- * matrix, material); the caller has set view, projection, framebuffer and depth state. */
+/* Draws every object's current pose with `program`, made of frame/geometry.vert and a fragment
+ * shader that includes frame/geometry.glsl. The caller has set the uniform view_projection, the
+ * framebuffer and the depth state; culling and blending are turned off here. Uses texture unit 0
+ * and shader storage binding 0. */
 void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_program *program);
 
 #endif

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef IRB_FRAME_LIGHT_GL_H
+#define IRB_FRAME_LIGHT_GL_H
+
+#include "core/gl/program.h"
+#include "core/scene/light.h"
+
+/* Sets the uniforms of shaders/frame/light.glsl. */
+void irb_light_uniforms(const struct irb_light *light, const struct irb_program *program);
+
+#endif

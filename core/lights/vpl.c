@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/lights/vpl.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const char *const irb_vpl_sampling_names[] = {"all", "uniform", "importance", NULL};
+
+/* Shader storage bindings of shaders/lights/. */
+enum { LIGHTS_BINDING = 0, RUNS_BINDING = 1, PYRAMID_BINDING = 2, COUNTER_BINDING = 3 };
+enum { RUN_GROUP = 64, PYRAMID_GROUP = 8 }; /* work group sizes there */
+
+struct irb_vpl_sampler {
+    struct irb_program *count, *scan, *write;
+    struct irb_program *pyramid;    /* IMPORTANCE only, with the two below */
+    struct irb_buffer *pyramid_sums;
+    int pyramid_levels;             /* log2 of the padded side, + 1 */
+    struct irb_buffer *runs;
+    int resolution;
+};
+
+static struct irb_program *create_program(struct irb_gl *gl, enum irb_vpl_sampling sampling,
+                                          const char *name, const char *path,
+                                          struct irb_error *err)
+{
+    static const char *const sampling_defines[] = {"SAMPLING 0", "SAMPLING 1", "SAMPLING 2"};
+    const char *const defines[] = {sampling_defines[sampling], NULL};
+    return irb_program_create(
+        gl, &(struct irb_program_desc){.name = name, .compute = path, .defines = defines}, err);
+}
+
+/* Number of floats in the levels before `level`. */
+static int64_t pyramid_offset(int levels, int level)
+{
+    return (((int64_t)1 << 2 * levels) - ((int64_t)1 << 2 * (levels - level))) / 3;
+}
+
+static bool create_pyramid(struct irb_gl *gl, struct irb_vpl_sampler *s, struct irb_error *err)
+{
+    s->pyramid_levels = 1;
+    while (1 << (s->pyramid_levels - 1) < s->resolution)
+        s->pyramid_levels++;
+    s->pyramid =
+        create_program(gl, IRB_VPL_IMPORTANCE, "vpl: pyramid", "lights/pyramid.comp", err);
+    if (s->pyramid)
+        s->pyramid_sums = irb_buffer_create(
+            gl, "vpl: pyramid", 4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL,
+            err);
+    return s->pyramid_sums != NULL;
+}
+
+/* Candidates that one invocation walks through: about the square root of their number, which
+ * balances the parallel passes and the sequential scan between them. */
+static int run_length_of(int candidates)
+{
+    int length = (int)sqrt((double)candidates);
+    return length > 0 ? length : 1;
+}
+
+static int run_count_of(int candidates)
+{
+    int length = run_length_of(candidates);
+    return (candidates + length - 1) / length;
+}
+
+static bool create_sampler(struct irb_vpl_set *set, int resolution, struct irb_error *err)
+{
+    struct irb_gl *gl = set->gl;
+    struct irb_vpl_sampler *s = set->sampler = calloc(1, sizeof *s);
+    if (!s)
+        return irb_fail(err, IRB_E_MEMORY, "out of memory");
+    s->resolution = resolution;
+    s->count = create_program(gl, set->sampling, "vpl: count", "lights/vpl_count.comp", err);
+    if (s->count)
+        s->scan = create_program(gl, set->sampling, "vpl: scan", "lights/vpl_scan.comp", err);
+    if (s->scan)
+        s->write = create_program(gl, set->sampling, "vpl: write", "lights/vpl_write.comp", err);
+    if (s->write)
+        /* the most runs that any number of candidates up to the capacity has, with some to spare */
+        s->runs = irb_buffer_create(gl, "vpl: runs", 4 * (run_count_of(set->capacity) + (int64_t)8),
+                                    NULL, err);
+    return s->runs && (set->sampling != IRB_VPL_IMPORTANCE || create_pyramid(gl, s, err));
+}
+
+/* Fails unless the lights and the pyramid (of 4-byte sums, padded to a power of two: at most
+ * 4 * 4 * 4/3 bytes a texel) fit into what a shader storage block can hold. */
+static bool check_size(struct irb_gl *gl, int64_t lights, int64_t resolution,
+                       struct irb_error *err)
+{
+    GLint64 most = 0;
+    gl->api.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    if (lights < 1 || resolution < 1)
+        return irb_fail(err, IRB_E_INTERNAL, "virtual lights: room for %lld of an RSM of %lld",
+                        (long long)lights, (long long)resolution);
+    if (lights * IRB_VPL_BYTES > most || resolution * resolution * 22 > most)
+        return irb_fail(err, IRB_E_INPUT,
+                        "virtual lights: %lld lights from an RSM of %lld x %lld texels exceed the "
+                        "driver's %lld MiB for one buffer; use a smaller RSM or fewer samples",
+                        (long long)lights, (long long)resolution, (long long)resolution,
+                        (long long)(most >> 20));
+    return true;
+}
+
+struct irb_vpl_set *irb_vpl_set_create(struct irb_gl *gl, enum irb_vpl_sampling sampling,
+                                       int rsm_resolution, int capacity, struct irb_error *err)
+{
+    int64_t lights = capacity, texels = (int64_t)rsm_resolution * rsm_resolution;
+    if (sampling == IRB_VPL_ALL && lights < texels)
+        lights = texels;
+    int64_t blocks = (lights + IRB_VPL_BLOCK - 1) / IRB_VPL_BLOCK;
+    if (!check_size(gl, blocks * IRB_VPL_BLOCK, rsm_resolution, err))
+        return NULL;
+    struct irb_vpl_set *set = calloc(1, sizeof *set);
+    if (!set) {
+        irb_fail(err, IRB_E_MEMORY, "out of memory");
+        return NULL;
+    }
+    set->gl = gl;
+    set->sampling = sampling;
+    set->capacity = (int)lights;
+    set->lights = irb_buffer_create(gl, "vpl: lights", blocks * IRB_VPL_BLOCK * IRB_VPL_BYTES,
+                                    NULL, err);
+    if (set->lights)
+        set->counter = irb_buffer_create(gl, "vpl: counter", sizeof(uint32_t), NULL, err);
+    if (set->counter && create_sampler(set, rsm_resolution, err))
+        return set;
+    irb_vpl_set_destroy(set);
+    return NULL;
+}
+
+void irb_vpl_set_destroy(struct irb_vpl_set *set)
+{
+    if (!set)
+        return;
+    if (set->sampler) {
+        irb_program_destroy(set->sampler->count);
+        irb_program_destroy(set->sampler->scan);
+        irb_program_destroy(set->sampler->write);
+        irb_program_destroy(set->sampler->pyramid);
+        irb_buffer_destroy(set->sampler->pyramid_sums);
+        irb_buffer_destroy(set->sampler->runs);
+        free(set->sampler);
+    }
+    irb_buffer_destroy(set->lights);
+    irb_buffer_destroy(set->counter);
+    free(set);
+}
+
+/* Sums the luminance of the flux level by level; see shaders/lights/pyramid.comp. */
+static void build_pyramid(const struct irb_vpl_set *set, const struct irb_rsm *rsm)
+{
+    const struct irb_gl_api *api = &set->gl->api;
+    const struct irb_vpl_sampler *s = set->sampler;
+    const int levels = s->pyramid_levels;
+
+    irb_program_use(s->pyramid);
+    api->BindTextureUnit(0, rsm->flux->id);
+    irb_program_int(s->pyramid, "rsm_flux", 0);
+    irb_program_int(s->pyramid, "resolution", s->resolution);
+    for (int level = 0; level < levels; level++) {
+        int side = 1 << (levels - 1 - level);
+        unsigned groups = (unsigned)(side + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
+        irb_program_int(s->pyramid, "level", level);
+        irb_program_int(s->pyramid, "side", side);
+        irb_program_int(s->pyramid, "offset", (int)pyramid_offset(levels, level));
+        irb_program_int(s->pyramid, "finer_offset",
+                        level ? (int)pyramid_offset(levels, level - 1) : 0);
+        api->DispatchCompute(groups, groups, 1);
+        api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+}
+
+static void set_candidates(const struct irb_vpl_set *set, const struct irb_program *program,
+                           int candidates, unsigned first)
+{
+    irb_program_use(program);
+    irb_program_int(program, "rsm_position", 0);
+    irb_program_int(program, "rsm_normal", 1);
+    irb_program_int(program, "rsm_flux", 2);
+    irb_program_int(program, "resolution", set->sampler->resolution);
+    irb_program_int(program, "pyramid_levels", set->sampler->pyramid_levels);
+    irb_program_uint(program, "candidates", (unsigned)candidates);
+    irb_program_uint(program, "first", first);
+    irb_program_uint(program, "run_length", (unsigned)run_length_of(candidates));
+}
+
+static void bind_inputs(const struct irb_vpl_set *set, const struct irb_rsm *rsm)
+{
+    const struct irb_gl_api *api = &set->gl->api;
+    const struct irb_vpl_sampler *s = set->sampler;
+
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, LIGHTS_BINDING, set->lights->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, RUNS_BINDING, s->runs->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, COUNTER_BINDING, set->counter->id);
+    if (s->pyramid_sums)
+        api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, PYRAMID_BINDING, s->pyramid_sums->id);
+    if (s->pyramid)
+        build_pyramid(set, rsm);
+    api->BindTextureUnit(0, rsm->position->id);
+    api->BindTextureUnit(1, rsm->normal->id);
+    api->BindTextureUnit(2, rsm->flux->id);
+}
+
+/* Zero flux from the last light to the end of its block. */
+static bool clear_rest(const struct irb_vpl_set *set, struct irb_error *err)
+{
+    static const char zeros[IRB_VPL_BLOCK * IRB_VPL_BYTES];
+    int64_t rest = (int64_t)irb_vpl_set_blocks(set) * IRB_VPL_BLOCK - set->count;
+    return !rest || irb_buffer_write(set->lights, (int64_t)set->count * IRB_VPL_BYTES,
+                                     rest * IRB_VPL_BYTES, zeros, err);
+}
+
+bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int samples,
+                        unsigned first, struct irb_error *err)
+{
+    const struct irb_gl_api *api = &set->gl->api;
+    const struct irb_vpl_sampler *s = set->sampler;
+    const int candidates =
+        set->sampling == IRB_VPL_ALL ? s->resolution * s->resolution : samples;
+    if (rsm->resolution != s->resolution || candidates < 1 || candidates > set->capacity)
+        return irb_fail(err, IRB_E_INTERNAL,
+                        "virtual lights: made for %d of an RSM of %d texels a side, asked for %d "
+                        "of one of %d",
+                        set->capacity, s->resolution, candidates, rsm->resolution);
+    const int runs = run_count_of(candidates);
+    const unsigned groups = (unsigned)(runs + RUN_GROUP - 1) / RUN_GROUP;
+    bind_inputs(set, rsm);
+    set_candidates(set, s->count, candidates, first);
+    api->DispatchCompute(groups, 1, 1);
+    api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    irb_program_use(s->scan);
+    irb_program_uint(s->scan, "run_count", (unsigned)runs);
+    api->DispatchCompute(1, 1, 1);
+    api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    set_candidates(set, s->write, candidates, first);
+    api->DispatchCompute(groups, 1, 1);
+    api->MemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                       GL_SHADER_STORAGE_BARRIER_BIT);
+    uint32_t count = 0;
+    if (!irb_buffer_read(set->counter, 0, sizeof count, &count, err))
+        return false;
+    set->count = (int)count;
+    return clear_rest(set, err) && irb_gl_check(set->gl, "vpl: sample", err);
+}

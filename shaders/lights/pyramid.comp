@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * One level of the pyramid of sums that lights/warp.glsl walks down; level 0 is the luminance of
+ * the RSM's reflected flux. Fixed order of additions: the same bits on every run.
+ */
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform sampler2D rsm_flux;
+uniform int resolution;
+uniform int level;
+uniform int side;        /* of this level */
+uniform int offset;      /* of this level */
+uniform int finer_offset; /* of level - 1 */
+
+layout(std430, binding = 2) buffer Pyramid { float pyramid[]; };
+
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722); /* Rec.709 */
+
+void main()
+{
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (at.x >= side || at.y >= side)
+        return;
+    float value = 0.0;
+    if (level > 0) {
+        int corner = finer_offset + 4 * at.y * side + 2 * at.x;
+        value = (pyramid[corner] + pyramid[corner + 1]) +
+                (pyramid[corner + 2 * side] + pyramid[corner + 2 * side + 1]);
+    } else if (at.x < resolution && at.y < resolution) {
+        value = max(0.0, dot(texelFetch(rsm_flux, at, 0).rgb, LUMINANCE));
+    }
+    pyramid[offset + at.y * side + at.x] = value;
+}

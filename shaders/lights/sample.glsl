@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Which RSM texel a candidate light stands on, and by what its flux is multiplied: 1/(N p) for a
+ * texel chosen with probability p. SAMPLING is 0 all, 1 uniform, 2 importance, as enum
+ * irb_vpl_sampling.
+ */
+#include "lights/halton.glsl"
+
+uniform sampler2D rsm_position;
+uniform sampler2D rsm_normal;
+uniform sampler2D rsm_flux;
+uniform int resolution;  /* texels a side of the RSM */
+uniform uint candidates; /* N; all: resolution^2 */
+uniform uint first;      /* index of the first Halton point */
+uniform uint run_length; /* candidates that one invocation walks through */
+
+struct candidate {
+    ivec2 texel;
+    vec3 flux; /* Phi = Phi_p / (N p), W */
+};
+
+#if SAMPLING == 2
+#include "lights/warp.glsl"
+#endif
+
+candidate draw(uint i)
+{
+    candidate c;
+#if SAMPLING == 0
+    c.texel = ivec2(int(i) % resolution, int(i) / resolution);
+    c.flux = texelFetch(rsm_flux, c.texel, 0).rgb;
+#elif SAMPLING == 1
+    vec2 point = halton(first + i);
+    c.texel = min(ivec2(point * float(resolution)), ivec2(resolution - 1));
+    float weight = float(resolution) * float(resolution) / float(candidates);
+    c.flux = texelFetch(rsm_flux, c.texel, 0).rgb * weight;
+#else
+    float probability;
+    c.texel = warp(halton(first + i), probability);
+    c.flux = vec3(0.0);
+    if (probability > 0.0)
+        c.flux = texelFetch(rsm_flux, c.texel, 0).rgb / (float(candidates) * probability);
+#endif
+    return c;
+}
+
+bool is_lit(candidate c)
+{
+    return any(greaterThan(c.flux, vec3(0.0)));
+}
