@@ -53,7 +53,7 @@ struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps
     scores.rmse = sqrt(square / count);
     scores.relmse = relative / count;
     scores.bias = difference / count;
-    scores.energy_ratio = reference_sum != 0 ? test_sum / reference_sum : (double)NAN;
+    scores.energy_ratio = reference_sum != 0 ? test_sum / reference_sum : NAN;
     return scores;
 }
 

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The command line: `irbench [OPTIONS] COMMAND [ARGUMENTS]`. One function a command; the table of
+ * commands in main.c gives usage and examples.
+ */
+#ifndef IRB_CLI_CLI_H
+#define IRB_CLI_CLI_H
+
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/gl/context.h"
+#include "methods/registry.h"
+
+#include <signal.h>
+
+enum { IRB_CLI_MAX_ARGUMENTS = 32 };
+
+/* What the options said; positional arguments without the command's name. */
+struct irb_cli {
+    const char *arguments[IRB_CLI_MAX_ARGUMENTS];
+    int argument_count;
+    const char *overrides[IRB_CLI_MAX_ARGUMENTS + 1]; /* --set and --seed, NULL-terminated */
+    int override_count;
+    const char *only[IRB_CLI_MAX_ARGUMENTS]; /* --only, trial names */
+    int only_count;
+    char *seed;              /* owned: the override that --seed became */
+    const char *out;         /* --out, NULL = default */
+    const char *shader_dir;  /* --shader-dir */
+    const char *format;      /* --format, NULL = text */
+    enum irb_backend backend;
+    int threads;             /* --threads, 0 = all cores */
+    unsigned stages;         /* --stage, all by default */
+    bool keep_all, key;
+    char *command_line;      /* owned: as it was given, for provenance */
+    struct irb_log log;
+    struct irb_registry registry;
+    const volatile sig_atomic_t *stop;
+};
+
+typedef bool (*irb_command_fn)(struct irb_cli *cli, struct irb_error *err);
+
+bool irb_command_run(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_table(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_reference(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_list(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_show(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err);
+
+struct irb_command {
+    const char *name;
+    const char *arguments; /* "CONFIG" */
+    int min_arguments, max_arguments;
+    const char *doc;       /* one line */
+    const char *help;      /* details and examples */
+    irb_command_fn run;
+};
+extern const struct irb_command irb_commands[]; /* ended by a NULL name */
+
+/* Parses argv after the program's name. *command is NULL when help or version was printed. */
+bool irb_cli_parse(struct irb_cli *cli, int argc, char **argv, const struct irb_command **command,
+                   struct irb_error *err);
+void irb_cli_close(struct irb_cli *cli);
+
+#endif

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The commands that work on experiments: run, table, reference.
+ */
+#include "core/cli/cli.h"
+#include "core/experiment/run.h"
+#include "core/report/table.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool table_format(const struct irb_cli *cli, enum irb_table_format *format,
+                         struct irb_error *err)
+{
+    *format = IRB_TABLE_TEXT;
+    if (!cli->format)
+        return true;
+    return irb_table_format_parse(cli->format, format, err);
+}
+
+static bool print_table(const struct irb_cli *cli, const char *run_dir, struct irb_error *err)
+{
+    enum irb_table_format format;
+    if (!table_format(cli, &format, err))
+        return false;
+    struct irb_store *store = irb_store_open(run_dir, false, err);
+    if (!store)
+        return false;
+    const char *no_color = getenv("NO_COLOR");
+    struct irb_table_options options = {
+        .format = format, .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color)};
+    bool ok = irb_table_write(stdout, store, &options, err);
+    irb_store_close(store);
+    return ok;
+}
+
+static struct irb_run_options run_options(struct irb_cli *cli)
+{
+    return (struct irb_run_options){
+        .out = cli->out,
+        .backend = cli->backend,
+        .shader_dir = cli->shader_dir,
+        .threads = cli->threads,
+        .stages = cli->stages,
+        .only = cli->only,
+        .only_count = cli->only_count,
+        .keep_all = cli->keep_all,
+        .command_line = cli->command_line,
+        .log = &cli->log,
+        .stop = cli->stop,
+    };
+}
+
+bool irb_command_run(struct irb_cli *cli, struct irb_error *err)
+{
+    struct irb_config config = {0};
+    struct irb_run_options options = run_options(cli);
+    enum irb_table_format format;
+    char *run_dir = NULL;
+    if (!table_format(cli, &format, err) ||
+        !irb_config_load(&config, cli->arguments[0], cli->overrides, &cli->registry, err))
+        return false;
+    bool ok = irb_run_experiment(&config, &options, &run_dir, err);
+    if (ok && (cli->stages & IRB_STAGE_SCORE))
+        ok = print_table(cli, run_dir, err);
+    if (run_dir)
+        irb_info(&cli->log, "results: %s", run_dir);
+    free(run_dir);
+    irb_config_destroy(&config);
+    return ok;
+}
+
+bool irb_command_table(struct irb_cli *cli, struct irb_error *err)
+{
+    return print_table(cli, cli->arguments[0], err);
+}
+
+bool irb_command_reference(struct irb_cli *cli, struct irb_error *err)
+{
+    struct irb_config config = {0};
+    struct irb_run_options options = run_options(cli);
+    if (!irb_config_load(&config, cli->arguments[0], cli->overrides, &cli->registry, err))
+        return false;
+    bool ok = irb_run_references(&config, &options, cli->key ? stdout : NULL, err);
+    irb_config_destroy(&config);
+    return ok;
+}
+
+bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err)
+{
+    struct irb_gl_desc desc = {.backend = cli->backend, .log = &cli->log};
+    printf("irbench %s\n", IRB_VERSION);
+    printf("reference (Embree): %s\n", IRB_HAVE_REFERENCE ? "built in" : "left out of this build; apt install libembree-dev and build again");
+    printf("images (OpenImageIO, glTF): %s\n", IRB_HAVE_IMAGES ? "built in" : "left out of this build; apt install libopenimageio-dev libtinygltf-dev and build again");
+    if (irb_gl_doctor(stdout, &desc))
+        return true;
+    return irb_fail(err, IRB_E_BACKEND, "no usable OpenGL 4.5 backend; see the lines above");
+}

@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The options of the command line, from one table that also prints the help.
+ */
+#include "core/base/str.h"
+#include "core/cli/cli.h"
+#include "core/experiment/run.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef bool (*option_fn)(struct irb_cli *cli, const char *value, struct irb_error *err);
+
+struct cli_option {
+    const char *name, *letter; /* "--out", "-o" or NULL */
+    const char *value;         /* name of the value, NULL for a switch */
+    const char *doc;
+    option_fn set;
+};
+
+static bool set_out(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->out = value;
+    return true;
+}
+
+static bool set_override(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    if (!strchr(value, '='))
+        return irb_fail(err, IRB_E_USAGE, "--set: expected key=value; found '%s'", value);
+    if (cli->override_count == IRB_CLI_MAX_ARGUMENTS)
+        return irb_fail(err, IRB_E_USAGE, "--set: at most %d overrides", IRB_CLI_MAX_ARGUMENTS);
+    cli->overrides[cli->override_count++] = value;
+    return true;
+}
+
+static bool set_seed(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    free(cli->seed);
+    cli->seed = irb_asprintf("seed=%s", value);
+    return set_override(cli, cli->seed, err);
+}
+
+static bool set_only(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    if (cli->only_count == IRB_CLI_MAX_ARGUMENTS)
+        return irb_fail(err, IRB_E_USAGE, "--only: at most %d trials", IRB_CLI_MAX_ARGUMENTS);
+    cli->only[cli->only_count++] = value;
+    return true;
+}
+
+static bool set_backend(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    for (int i = 0; irb_backend_names[i]; i++) {
+        if (!strcmp(irb_backend_names[i], value)) {
+            cli->backend = (enum irb_backend)i;
+            return true;
+        }
+    }
+    return irb_fail(err, IRB_E_USAGE, "--backend: expected auto, osmesa, egl or null; found '%s'",
+                    value);
+}
+
+static bool set_stage(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    static const struct {
+        const char *name;
+        unsigned stages;
+    } stages[] = {{"prepare", IRB_STAGE_PREPARE}, {"render", IRB_STAGE_RENDER},
+                  {"score", IRB_STAGE_SCORE}, {"all", IRB_STAGE_ALL}};
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
+        if (!strcmp(stages[i].name, value)) {
+            cli->stages = stages[i].stages;
+            return true;
+        }
+    }
+    return irb_fail(err, IRB_E_USAGE, "--stage: expected prepare, render, score or all; found '%s'",
+                    value);
+}
+
+static bool set_threads(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    char *end;
+    errno = 0;
+    long threads = strtol(value, &end, 10);
+    if (end == value || *end || errno || threads < 1 || threads > 1024)
+        return irb_fail(err, IRB_E_USAGE, "--threads: expected 1 to 1024; found '%s'", value);
+    cli->threads = (int)threads;
+    return true;
+}
+
+static bool set_keep(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    if (strcmp(value, "all") && strcmp(value, "some"))
+        return irb_fail(err, IRB_E_USAGE, "--keep: expected some or all; found '%s'", value);
+    cli->keep_all = !strcmp(value, "all");
+    return true;
+}
+
+static bool set_format(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->format = value;
+    return true;
+}
+
+static bool set_shader_dir(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->shader_dir = value;
+    return true;
+}
+
+static bool set_module(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    return irb_registry_load(&cli->registry, value, err);
+}
+
+static bool set_key(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value, (void)err;
+    cli->key = true;
+    return true;
+}
+
+static bool set_verbose(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value, (void)err;
+    cli->log.level = IRB_LOG_DEBUG;
+    return true;
+}
+
+static bool set_quiet(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value, (void)err;
+    cli->log.level = IRB_LOG_ERROR;
+    return true;
+}
+
+static const struct cli_option options[] = {
+    {"--out", "-o", "DIR", "run folder (default results/runs/NAME-KEY)", set_out},
+    {"--set", NULL, "KEY=VALUE", "override a config value: frames=4, reference.noise=0.02",
+     set_override},
+    {"--seed", NULL, "N", "override the config's seed", set_seed},
+    {"--only", NULL, "TRIAL", "run only this trial (may be repeated)", set_only},
+    {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
+    {"--keep", NULL, "WHICH", "images to keep: some (first, middle, worst, last) or all", set_keep},
+    {"--backend", NULL, "NAME", "auto (default), osmesa, egl or null", set_backend},
+    {"--shader-dir", NULL, "DIR", "read shaders from here instead of the binary", set_shader_dir},
+    {"--module", NULL, "FILE.so", "load a method from a shared object", set_module},
+    {"--threads", NULL, "N", "threads of reference and scoring (default: all cores)", set_threads},
+    {"--format", NULL, "FORMAT", "of tables: text (default), csv, md or json", set_format},
+    {"--key", NULL, NULL, "reference: print the cache key of every frame and stop", set_key},
+    {"--verbose", "-v", NULL, "say more", set_verbose},
+    {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},
+};
+enum { OPTION_COUNT = sizeof options / sizeof *options };
+
+static void print_help(const struct irb_command *command)
+{
+    if (command) {
+        printf("irbench %s %s\n\n%s\n%s\n", command->name, command->arguments, command->doc,
+               command->help);
+    } else {
+        printf("irbench " IRB_VERSION ": compares many-light methods for interactive global "
+               "illumination\n\nusage: irbench COMMAND [ARGUMENTS] [OPTIONS]\n\n");
+        for (const struct irb_command *c = irb_commands; c->name; c++)
+            printf("  %-10s %-14s %s\n", c->name, c->arguments, c->doc);
+        printf("\nexamples:\n"
+               "  irbench run experiments/quick.yaml\n"
+               "  irbench table results/runs/quick-1a2b3c4d --format md\n"
+               "  irbench show rsm\n"
+               "  irbench help run\n");
+    }
+    printf("\noptions:\n");
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const struct cli_option *o = &options[i];
+        char left[64];
+        snprintf(left, sizeof left, "%s%s%s%s%s", o->letter ? o->letter : "", o->letter ? ", " : "",
+                 o->name, o->value ? " " : "", o->value ? o->value : "");
+        printf("  %-22s %s\n", left, o->doc);
+    }
+    printf("  %-22s %s\n  %-22s %s\n", "-h, --help", "this, or a command's own help", "--version",
+           "version and build");
+    printf("\nexit status:\n");
+#define X(name, status, doc) printf("  %3d  %s\n", status, doc);
+    IRB_ERROR_CODES(X)
+#undef X
+}
+
+static void print_version(void)
+{
+    printf("irbench " IRB_VERSION " (%s%s%s%s)\n", IRB_HAVE_OSMESA ? "osmesa " : "",
+           IRB_HAVE_EGL ? "egl " : "", IRB_HAVE_REFERENCE ? "reference " : "",
+           IRB_HAVE_IMAGES ? "images" : "");
+}
+
+static const struct irb_command *find_command(const char *name, struct irb_error *err)
+{
+    const char *names[32];
+    size_t count = 0;
+    for (const struct irb_command *c = irb_commands; c->name; c++) {
+        if (!strcmp(c->name, name))
+            return c;
+        names[count++] = c->name;
+    }
+    const char *near = irb_nearest(name, names, count);
+    irb_fail(err, IRB_E_USAGE, "unknown command '%s'%s%s%s; see irbench --help", name,
+             near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    return NULL;
+}
+
+/* Applies argv[*index] as an option, taking its value from "--name=value" or the next argument. */
+static bool apply_option(struct irb_cli *cli, int argc, char **argv, int *index,
+                         struct irb_error *err)
+{
+    const char *word = argv[*index];
+    const char *equals = strncmp(word, "--", 2) ? NULL : strchr(word, '=');
+    size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    const char *names[OPTION_COUNT];
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const struct cli_option *o = &options[i];
+        names[i] = o->name;
+        bool is_long = strlen(o->name) == length && !strncmp(o->name, word, length);
+        if (!is_long && !(o->letter && !strcmp(o->letter, word)))
+            continue;
+        if (!o->value)
+            return equals ? irb_fail(err, IRB_E_USAGE, "%s takes no value", o->name)
+                          : o->set(cli, NULL, err);
+        if (equals)
+            return o->set(cli, equals + 1, err);
+        if (*index + 1 >= argc)
+            return irb_fail(err, IRB_E_USAGE, "%s: expected %s, found nothing", o->name, o->value);
+        return o->set(cli, argv[++*index], err);
+    }
+    const char *near = irb_nearest(word, names, OPTION_COUNT);
+    return irb_fail(err, IRB_E_USAGE, "unknown option '%s'%s%s%s; see irbench --help", word,
+                    near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
+static bool check_arguments(const struct irb_cli *cli, const struct irb_command *command,
+                            struct irb_error *err)
+{
+    if (cli->argument_count >= command->min_arguments &&
+        cli->argument_count <= command->max_arguments)
+        return true;
+    return irb_fail(err, IRB_E_USAGE, "%s: expected %s, found %d argument%s; see irbench help %s",
+                    command->name, *command->arguments ? command->arguments : "no argument",
+                    cli->argument_count, cli->argument_count == 1 ? "" : "s", command->name);
+}
+
+static char *join_command_line(int argc, char **argv)
+{
+    struct irb_str line = {0};
+    irb_str_printf(&line, "irbench");
+    for (int i = 1; i < argc; i++)
+        irb_str_printf(&line, " %s", argv[i]);
+    return line.text;
+}
+
+bool irb_cli_parse(struct irb_cli *cli, int argc, char **argv, const struct irb_command **command,
+                   struct irb_error *err)
+{
+    bool help = false;
+    *command = NULL;
+    cli->command_line = join_command_line(argc, argv);
+    for (int i = 1; i < argc; i++) {
+        if (!strcmp(argv[i], "--version")) {
+            print_version();
+            return true;
+        }
+        if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
+            help = true;
+        } else if (argv[i][0] == '-' && argv[i][1]) {
+            if (!apply_option(cli, argc, argv, &i, err))
+                return false;
+        } else if (!*command && !help && !strcmp(argv[i], "help")) {
+            help = true;
+        } else if (!*command) {
+            if (!(*command = find_command(argv[i], err)))
+                return false;
+        } else if (cli->argument_count < IRB_CLI_MAX_ARGUMENTS) {
+            cli->arguments[cli->argument_count++] = argv[i];
+        }
+    }
+    if (help) {
+        print_help(*command);
+        *command = NULL;
+        return true;
+    }
+    if (!*command)
+        return irb_fail(err, IRB_E_USAGE, "expected a command; see irbench --help");
+    return check_arguments(cli, *command, err);
+}
+
+void irb_cli_close(struct irb_cli *cli)
+{
+    free(cli->seed);
+    free(cli->command_line);
+    irb_registry_close(&cli->registry);
+}

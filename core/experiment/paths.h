@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Where everything lies. All results are malloc'ed paths.
+ *
+ *     CACHE/gbuffer-KEY.exr               full-precision G-buffer
+ *     CACHE/reference-KEY.exr             finished reference of one frame
+ *     CACHE/reference-KEY.partial         tiles of an unfinished one
+ *     RUN/results.sqlite                  every number
+ *     RUN/config.yaml                     the config as it was read
+ *     RUN/SCENE/direct-0000.exr           direct light of a frame, shared by all trials
+ *     RUN/SCENE/mask-0000.exr             pixels left out of scores (only where there are any)
+ *     RUN/SCENE/TRIAL/frame-0000.exr      what a method returned
+ *     RUN/SCENE/TRIAL/image-0000.exr|png  a kept frame: result, reference, maps
+ */
+#ifndef IRB_EXPERIMENT_PATHS_H
+#define IRB_EXPERIMENT_PATHS_H
+
+#include "core/base/hash.h"
+
+/* $IRBENCH_CACHE, else $XDG_CACHE_HOME/irbench, else $HOME/.cache/irbench, else ./.irbench-cache. */
+char *irb_cache_dir(void);
+char *irb_cache_gbuffer(const char *cache, const struct irb_key *key);
+char *irb_cache_reference(const char *cache, const struct irb_key *key);
+char *irb_cache_checkpoint(const char *cache, const struct irb_key *key);
+
+/* RUN/SCENE/stem-0003.exr; trial may be NULL. extension without a dot. */
+char *irb_run_file(const char *run, const char *scene, const char *trial, const char *stem,
+                   int frame, const char *extension);
+char *irb_run_folder(const char *run, const char *scene, const char *trial);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Where a number comes from: stored with every run.
+ */
+#ifndef IRB_EXPERIMENT_PROVENANCE_H
+#define IRB_EXPERIMENT_PROVENANCE_H
+
+#include "core/experiment/run.h"
+
+/* Version, git commit, config key and text, command line, CPU, threads, date. */
+bool irb_provenance_store_host(struct irb_run *run, struct irb_error *err);
+/* GL vendor, renderer, version, platform; shader hash. */
+bool irb_provenance_store_gl(struct irb_run *run, struct irb_error *err);
+/* Seconds by kind of work, of this process. */
+bool irb_provenance_store_seconds(struct irb_run *run, struct irb_error *err);
+
+#endif

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Render: every frame of every trial of one scene. Frames are the outer loop, so that the trials
+ * are interleaved in time (A B A B ...) and share the G-buffer, the RSM and the direct light.
+ */
+#include "core/base/clock.h"
+#include "core/base/fs.h"
+#include "core/experiment/frame_file.h"
+#include "core/experiment/paths.h"
+#include "core/experiment/run.h"
+#include "core/frame/direct.h"
+#include "core/image/exr.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Stages that every trial shares and pays for, in order. */
+enum core_stage { STAGE_GBUFFER, STAGE_RSM, STAGE_DIRECT, CORE_STAGE_COUNT };
+static const char *const core_stage_names[CORE_STAGE_COUNT] = {"gbuffer", "rsm", "direct"};
+
+/* Warm-up frames of a method that keeps no history: they only load caches and compile shaders. */
+enum { WARM_UP_FRAMES = 1 };
+
+/* Above this share of differing pixels the reference belongs to another image altogether. */
+static const double largest_masked_share = 0.05;
+
+struct trial_run {
+    const struct irb_trial *trial;
+    int64_t id;
+    void *state;    /* the method's; NULL when there is nothing to render */
+    int last_frame; /* last frame that has to be rendered, -1 for none */
+    struct irb_timer *timer;
+    int64_t bytes; /* of GL objects that the method holds */
+};
+
+struct scene_run {
+    struct irb_run *run;
+    struct irb_sequence *sequence;
+    struct irb_scene_gl *scene;
+    struct irb_gbuffer *gbuffer;
+    struct irb_rsm *rsm;
+    struct irb_direct *direct;
+    struct irb_timer *timer; /* of the core's stages */
+    double core_ms[IRB_MAX_STAGES];
+    struct trial_run *trials;
+    int trial_count;
+};
+
+static bool keeps_history(const struct trial_run *trial)
+{
+    return trial->trial->method->needs & IRB_NEEDS_HISTORY;
+}
+
+static bool frame_done(struct scene_run *scene, const struct trial_run *trial, int frame)
+{
+    if (irb_store_has_scores(scene->run->store, trial->id, frame))
+        return true;
+    char *path = irb_run_file(scene->run->dir, scene->sequence->entry->name, trial->trial->name,
+                              "frame", frame, "exr");
+    bool done = irb_store_has_frame(scene->run->store, trial->id, frame) && irb_fs_exists(path);
+    free(path);
+    return done;
+}
+
+/* A trial's parameters as a JSON object of texts. Malloc'ed. */
+static char *params_json(const struct irb_trial *trial)
+{
+    struct irb_str json = {0}, value = {0};
+    irb_str_printf(&json, "{");
+    for (const struct irb_option *o = trial->method->params; o->name; o++) {
+        value.length = 0;
+        irb_option_print(o, trial->params, &value);
+        irb_str_printf(&json, "%s\"%s\": ", o == trial->method->params ? "" : ", ", o->name);
+        if (o->type == IRB_TYPE_ENUM)
+            irb_str_json_string(&json, irb_str_text(&value));
+        else
+            irb_str_printf(&json, "%s", irb_str_text(&value));
+    }
+    irb_str_printf(&json, "}");
+    irb_str_free(&value);
+    return json.text;
+}
+
+static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    const struct irb_config *config = run->config;
+    char *json = params_json(trial->trial);
+    trial->id = irb_store_trial(run->store, scene->sequence->entry->name,
+                                trial->trial->method->name, trial->trial->name, json, config->seed,
+                                err);
+    free(json);
+    if (!trial->id)
+        return false;
+    char *folder = irb_run_folder(run->dir, scene->sequence->entry->name, trial->trial->name);
+    bool ok = irb_fs_make_dirs(folder, err);
+    free(folder);
+    trial->last_frame = -1;
+    for (int i = 0; i < config->render.frames; i++)
+        if (!frame_done(scene, trial, i))
+            trial->last_frame = i;
+    return ok;
+}
+
+static bool create_trial_state(struct scene_run *scene, struct trial_run *trial,
+                               struct irb_error *err)
+{
+    const struct irb_config *config = scene->run->config;
+    const struct irb_method *method = trial->trial->method;
+    trial->timer = irb_timer_create(scene->run->gl, err);
+    if (!trial->timer)
+        return false;
+    int64_t before = scene->run->gl->bytes;
+    trial->state = method->create(scene->run->gl, scene->scene, config->render.width,
+                                  config->render.height, trial->trial->params, err);
+    bool ok = trial->state && method->begin_sequence(trial->state, trial->trial->params,
+                                                     (uint64_t)config->seed, err);
+    trial->bytes = scene->run->gl->bytes - before;
+    return ok;
+}
+
+static void close_scene(struct scene_run *scene)
+{
+    for (int i = 0; i < scene->trial_count; i++) {
+        struct trial_run *trial = &scene->trials[i];
+        if (trial->state)
+            trial->trial->method->destroy(trial->state);
+        irb_timer_destroy(trial->timer);
+    }
+    free(scene->trials);
+    irb_timer_destroy(scene->timer);
+    irb_direct_destroy(scene->direct);
+    irb_rsm_destroy(scene->rsm);
+    irb_gbuffer_destroy(scene->gbuffer);
+    irb_scene_gl_destroy(scene->scene);
+}
+
+static bool open_passes(struct scene_run *scene, struct irb_error *err)
+{
+    const struct irb_render_settings *render = &scene->run->config->render;
+    struct irb_gl *gl = scene->run->gl;
+    return (scene->scene = irb_scene_gl_create(gl, scene->sequence->scene, err)) &&
+           (scene->gbuffer = irb_gbuffer_create(gl, render->width, render->height, err)) &&
+           (scene->rsm = irb_rsm_create(gl, render->rsm_resolution, err)) &&
+           (scene->direct = irb_direct_create(gl, render->width, render->height, err)) &&
+           (scene->timer = irb_timer_create(gl, err));
+}
+
+/* The passes that all trials share; the times go to core_ms. */
+static bool render_core(struct scene_run *scene, int frame, struct irb_error *err)
+{
+    const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
+    irb_timer_begin(scene->timer, STAGE_GBUFFER);
+    bool ok = irb_gbuffer_render(scene->gbuffer, scene->scene, &pose->camera, err);
+    irb_timer_end(scene->timer);
+    irb_timer_begin(scene->timer, STAGE_RSM);
+    ok = ok && irb_rsm_render(scene->rsm, scene->scene, &pose->light, err);
+    irb_timer_end(scene->timer);
+    irb_timer_begin(scene->timer, STAGE_DIRECT);
+    ok = ok && irb_direct_render(scene->direct, scene->gbuffer, scene->rsm, &pose->light,
+                                 &pose->camera, err);
+    irb_timer_end(scene->timer);
+    irb_timer_collect(scene->timer, scene->core_ms);
+    return ok;
+}
+
+static bool render_trial(struct scene_run *scene, struct trial_run *trial, int frame,
+                         struct irb_frame_output *output, double ms[IRB_MAX_STAGES],
+                         struct irb_error *err)
+{
+    const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
+    struct irb_frame_inputs inputs = {
+        .scene = scene->scene,
+        .light = &pose->light,
+        .camera = &pose->camera,
+        .gbuffer = scene->gbuffer,
+        .rsm = scene->rsm,
+        .frame = frame,
+        .seed = (uint64_t)scene->run->config->seed,
+        .params = trial->trial->params,
+        .timer = trial->timer,
+    };
+    int64_t before = scene->run->gl->bytes;
+    *output = (struct irb_frame_output){.lost_energy = NAN};
+    bool ok = trial->trial->method->render_frame(trial->state, &inputs, output, err) &&
+              irb_gl_check(scene->run->gl, trial->trial->name, err);
+    irb_timer_collect(trial->timer, ms);
+    trial->bytes += scene->run->gl->bytes - before; /* a method may allocate when it first draws */
+    return ok || irb_error_prefix(err, "%s: frame %d", trial->trial->name, frame);
+}
+
+static bool store_frame(struct scene_run *scene, struct trial_run *trial, int frame,
+                        const struct irb_frame_output *output, const double ms[IRB_MAX_STAGES],
+                        struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    char *path = irb_run_file(run->dir, scene->sequence->entry->name, trial->trial->name, "frame",
+                              frame, "exr");
+    bool ok = irb_frame_file_save(path, output, err);
+    free(path);
+    struct irb_store_value stages[CORE_STAGE_COUNT + IRB_MAX_STAGES];
+    int stage_count = 0;
+    for (int i = 0; i < CORE_STAGE_COUNT; i++)
+        stages[stage_count++] = (struct irb_store_value){core_stage_names[i], scene->core_ms[i]};
+    const char *const *names = trial->trial->method->stages;
+    for (int i = 0; names[i] && i < IRB_MAX_STAGES; i++)
+        stages[stage_count++] = (struct irb_store_value){names[i], ms[i]};
+    struct irb_store_value statistics[IRB_MAX_STATISTICS + 2];
+    int statistic_count = 0;
+    statistics[statistic_count++] =
+        (struct irb_store_value){"lost_energy", output->lost_energy};
+    statistics[statistic_count++] =
+        (struct irb_store_value){"gl_bytes", (double)trial->bytes};
+    for (int i = 0; i < output->statistic_count; i++)
+        statistics[statistic_count++] =
+            (struct irb_store_value){output->statistics[i].name, output->statistics[i].value};
+    return ok && irb_store_frame(run->store, trial->id, frame, irb_timer_clock(trial->timer),
+                                 stages, stage_count, statistics, statistic_count, err);
+}
+
+/* Writes the mask of the pixels where this driver's G-buffer is not the reference's. */
+static bool store_mask(struct scene_run *scene, int frame, const struct irb_gbuffer_image *mine,
+                       const char *cached, struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    const char *name = scene->sequence->entry->name;
+    struct irb_gbuffer_image prepared = {0};
+    struct irb_image mask = {0};
+    double share = 0;
+    bool ok = irb_gbuffer_image_load(&prepared, cached, err) &&
+              irb_gbuffer_difference(mine, &prepared, &mask, &share, err);
+    if (ok && share > largest_masked_share)
+        ok = irb_fail(err, IRB_E_BACKEND,
+                      "%s: frame %d: %.1f %% of the pixels see another surface than the reference "
+                      "does (at most %.0f %% can be masked)",
+                      name, frame, 100 * share, 100 * largest_masked_share);
+    char *path = irb_run_file(run->dir, name, NULL, "mask", frame, "exr");
+    struct irb_exr_layer layer = {"mask", "Y", &mask};
+    ok = ok && irb_exr_write(path, &layer, 1, NULL, 0, IRB_EXR_ZIP, err);
+    free(path);
+    if (ok)
+        irb_warn(run->log,
+                 "%s: frame %d: %.3f %% of the pixels are masked: this driver's G-buffer differs "
+                 "from the reference's",
+                 name, frame, 100 * share);
+    irb_image_destroy(&mask);
+    irb_gbuffer_image_destroy(&prepared);
+    return ok;
+}
+
+/* Direct light and, once a camera pose, the check against the reference's G-buffer. */
+static bool store_shared(struct scene_run *scene, int frame, struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    const struct irb_key *expected = &scene->sequence->frames[frame].gbuffer;
+    char *direct =
+        irb_run_file(run->dir, scene->sequence->entry->name, NULL, "direct", frame, "exr");
+    bool ok = irb_fs_exists(direct) || irb_direct_file_save(direct, scene->direct->radiance, err);
+    free(direct);
+    if (!ok || irb_sequence_same_camera(scene->sequence, frame))
+        return ok;
+    struct irb_gbuffer_image mine = {0};
+    if (!irb_gbuffer_read(scene->gbuffer, &mine, err))
+        return false;
+    struct irb_key key = irb_gbuffer_image_key(&mine);
+    if (strcmp(key.hex, expected->hex)) {
+        char *cached = irb_cache_gbuffer(run->cache, expected);
+        ok = store_mask(scene, frame, &mine, cached, err);
+        free(cached);
+    }
+    irb_gbuffer_image_destroy(&mine);
+    return ok;
+}
+
+static bool trial_frame(struct scene_run *scene, struct trial_run *trial, int frame,
+                        struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    bool warm_up = frame < 0;
+    if (!trial->state || frame > trial->last_frame)
+        return true;
+    if (warm_up && !keeps_history(trial) && frame < -WARM_UP_FRAMES)
+        return true;
+    bool done = !warm_up && frame_done(scene, trial, frame);
+    if (done && !keeps_history(trial))
+        return true;
+    struct irb_frame_output output;
+    double ms[IRB_MAX_STAGES];
+    irb_run_work(run, IRB_WORK_RENDER);
+    if (!render_trial(scene, trial, frame, &output, ms, err))
+        return false;
+    irb_run_work(run, IRB_WORK_STORE);
+    return done || warm_up || store_frame(scene, trial, frame, &output, ms, err);
+}
+
+/* The first frame (a negative one while settling) that anything has to be rendered for. */
+static int first_frame(struct scene_run *scene)
+{
+    int first = scene->run->config->render.frames;
+    for (int t = 0; t < scene->trial_count; t++) {
+        const struct trial_run *trial = &scene->trials[t];
+        if (trial->last_frame < 0)
+            continue;
+        int settle = keeps_history(trial) ? scene->run->config->render.settle : WARM_UP_FRAMES;
+        if (-settle < first)
+            first = -settle;
+    }
+    return first;
+}
+
+static bool render_frames(struct scene_run *scene, struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    int frames = run->config->render.frames, first = first_frame(scene);
+    double start = irb_clock_s();
+    for (int frame = first; frame < frames; frame++) {
+        irb_run_work(run, IRB_WORK_RENDER);
+        if (irb_run_stopped(run, err) || !render_core(scene, frame, err))
+            return false;
+        irb_run_work(run, IRB_WORK_STORE);
+        if (frame >= 0 && !store_shared(scene, frame, err))
+            return false;
+        for (int t = 0; t < scene->trial_count; t++) {
+            if (irb_run_stopped(run, err) || !trial_frame(scene, &scene->trials[t], frame, err))
+                return false;
+            double done = frame - first + (t + 1.0) / scene->trial_count;
+            irb_log_progress(run->log, "render", done / (frames - first), irb_clock_s() - start);
+        }
+    }
+    return true;
+}
+
+bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence,
+                         struct irb_error *err)
+{
+    struct scene_run scene = {.run = run, .sequence = sequence};
+    scene.trials = calloc((size_t)run->config->trial_count, sizeof *scene.trials);
+    if (!scene.trials)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", run->config->trial_count);
+    scene.trial_count = run->config->trial_count;
+    int to_render = 0;
+    bool ok = true;
+    irb_run_work(run, IRB_WORK_STORE);
+    for (int i = 0; ok && i < scene.trial_count; i++) {
+        scene.trials[i].trial = &run->config->trials[i];
+        ok = open_trial(&scene, &scene.trials[i], err);
+        to_render += scene.trials[i].last_frame >= 0;
+    }
+    irb_run_work(run, IRB_WORK_RENDER);
+    if (ok && to_render) {
+        irb_info(run->log, "%s: rendering %d of %d trials, %d frames", sequence->entry->name,
+                 to_render, scene.trial_count, run->config->render.frames);
+        ok = irb_run_need_gl(run, err) && open_passes(&scene, err);
+        for (int i = 0; ok && i < scene.trial_count; i++)
+            if (scene.trials[i].last_frame >= 0)
+                ok = create_trial_state(&scene, &scene.trials[i], err);
+        ok = ok && render_frames(&scene, err);
+        irb_log_progress_done(run->log);
+    }
+    close_scene(&scene);
+    return ok;
+}

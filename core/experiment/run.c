@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/experiment/run.h"
+#include "core/base/clock.h"
+#include "core/base/fs.h"
+#include "core/experiment/paths.h"
+#include "core/experiment/provenance.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *const irb_work_names[IRB_WORK_COUNT] = {"startup", "reference", "render", "score",
+                                                    "store"};
+
+void irb_run_work(struct irb_run *run, enum irb_work work)
+{
+    double now = irb_clock_s();
+    run->seconds[run->working] += now - run->since_s;
+    run->working = work;
+    run->since_s = now;
+}
+
+bool irb_run_stopped(const struct irb_run *run, struct irb_error *err)
+{
+    if (!run->options->stop || !*run->options->stop)
+        return false;
+    irb_fail(err, IRB_E_INTERRUPTED, "stopped; the same command goes on from here");
+    return true;
+}
+
+bool irb_run_need_gl(struct irb_run *run, struct irb_error *err)
+{
+    if (run->gl)
+        return true;
+    struct irb_gl_desc desc = {.backend = run->options->backend,
+                               .shader_dir = run->options->shader_dir,
+                               .log = run->log};
+    enum irb_work before = run->working;
+    irb_run_work(run, IRB_WORK_STARTUP);
+    run->gl = irb_gl_create(&desc, err);
+    bool ok = run->gl && (!run->store || irb_provenance_store_gl(run, err));
+    if (ok)
+        irb_debug(run->log, "OpenGL: %s (%s)", run->gl->renderer, run->gl->platform);
+    irb_run_work(run, before);
+    return ok;
+}
+
+static void close_run(struct irb_run *run)
+{
+    irb_gl_destroy(run->gl);
+    irb_store_close(run->store);
+    free(run->dir);
+    free(run->cache);
+}
+
+static struct irb_run begin_run(const struct irb_config *config,
+                                const struct irb_run_options *options)
+{
+    return (struct irb_run){
+        .config = config,
+        .config_key = irb_config_key(config),
+        .options = options,
+        .log = options->log,
+        .cache = irb_cache_dir(),
+        .working = IRB_WORK_STARTUP,
+        .since_s = irb_clock_s(),
+    };
+}
+
+/* Opens the run folder; refuses one that holds another experiment. */
+static bool open_results(struct irb_run *run, struct irb_error *err)
+{
+    const struct irb_config *config = run->config;
+    struct irb_key key = run->config_key;
+    run->dir = run->options->out
+                   ? irb_strdup(run->options->out)
+                   : irb_asprintf("results/runs/%s-%.8s", config->name, key.hex);
+    if (!irb_fs_make_dirs(run->dir, err) || !(run->store = irb_store_open(run->dir, true, err)))
+        return false;
+    char *stored = irb_store_get_meta(run->store, "config_key");
+    bool same = !stored || !strcmp(stored, key.hex);
+    if (!same)
+        irb_fail(err, IRB_E_USAGE,
+                 "%s: holds another experiment (config key %.8s, this one is %.8s); choose another "
+                 "--out or remove it",
+                 run->dir, stored, key.hex);
+    free(stored);
+    return same && irb_provenance_store_host(run, err);
+}
+
+/* Keys of all frames, so that scoring can run where there is no OpenGL. */
+static bool store_keys(struct irb_run *run, const struct irb_sequence *sequence,
+                       struct irb_error *err)
+{
+    struct irb_str lines = {0};
+    for (int i = 0; i < sequence->frame_count; i++)
+        irb_str_printf(&lines, "%s %s\n", sequence->frames[i].gbuffer.hex,
+                       sequence->frames[i].reference.hex);
+    char *name = irb_asprintf("scene/%s/keys", sequence->entry->name);
+    bool ok = irb_store_set_meta(run->store, name, irb_str_text(&lines), err);
+    free(name);
+    irb_str_free(&lines);
+    return ok;
+}
+
+static bool read_keys(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err)
+{
+    char *name = irb_asprintf("scene/%s/keys", sequence->entry->name);
+    char *text = irb_store_get_meta(run->store, name);
+    free(name);
+    bool ok = text != NULL;
+    const char *line = text;
+    for (int i = 0; ok && i < sequence->frame_count; i++) {
+        struct irb_sequence_frame *frame = &sequence->frames[i];
+        int used = 0;
+        ok = sscanf(line, "%32s %32s\n%n", frame->gbuffer.hex, frame->reference.hex, &used) == 2;
+        line += used;
+    }
+    free(text);
+    return ok || irb_fail(err, IRB_E_USAGE, "%s: scene %s is not prepared; run --stage prepare first",
+                          run->dir, sequence->entry->name);
+}
+
+static bool run_scene(struct irb_run *run, const struct irb_scene_entry *entry,
+                      struct irb_error *err)
+{
+    struct irb_sequence sequence;
+    unsigned stages = run->options->stages;
+    irb_run_work(run, IRB_WORK_STARTUP);
+    if (!irb_sequence_open(&sequence, run->config, entry, run->log, err))
+        return false;
+    bool ok = true;
+    if (stages & IRB_STAGE_PREPARE)
+        ok = irb_prepare_gbuffers(run, &sequence, err) && store_keys(run, &sequence, err) &&
+             irb_prepare_references(run, &sequence, err);
+    else
+        ok = read_keys(run, &sequence, err);
+    if (ok && (stages & IRB_STAGE_RENDER))
+        ok = irb_render_sequence(run, &sequence, err);
+    if (ok && (stages & IRB_STAGE_SCORE))
+        ok = irb_score_sequence(run, &sequence, err);
+    irb_sequence_close(&sequence);
+    return ok || irb_error_prefix(err, "scene %s", entry->name);
+}
+
+static void report_seconds(const struct irb_run *run)
+{
+    struct irb_str line = {0};
+    for (int i = 0; i < IRB_WORK_COUNT; i++)
+        irb_str_printf(&line, "%s%s %.1f s", i ? ", " : "", irb_work_names[i], run->seconds[i]);
+    irb_info(run->log, "time: %s", irb_str_text(&line));
+    irb_str_free(&line);
+}
+
+/* The trials that --only names, as a shallow copy of the config's; *selected is malloc'ed. */
+static bool select_trials(const struct irb_config *config, const struct irb_run_options *options,
+                          struct irb_trial **selected, int *count, struct irb_error *err)
+{
+    *selected = calloc((size_t)config->trial_count, sizeof **selected);
+    if (!*selected)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", config->trial_count);
+    const char **names = calloc((size_t)config->trial_count, sizeof *names);
+    for (int i = 0; names && i < config->trial_count; i++)
+        names[i] = config->trials[i].name;
+    bool ok = names != NULL;
+    *count = 0;
+    for (int o = 0; ok && o < options->only_count; o++) {
+        int before = *count;
+        for (int i = 0; i < config->trial_count; i++)
+            if (!strcmp(config->trials[i].name, options->only[o]))
+                (*selected)[(*count)++] = config->trials[i];
+        if (*count > before)
+            continue;
+        const char *near = irb_nearest(options->only[o], names, (size_t)config->trial_count);
+        ok = irb_fail(err, IRB_E_USAGE, "--only: the config has no trial '%s'%s%s%s",
+                      options->only[o], near ? "; did you mean '" : "", near ? near : "",
+                      near ? "'?" : "");
+    }
+    free(names);
+    return ok;
+}
+
+static bool run_scenes(struct irb_run *run, struct irb_error *err)
+{
+    struct irb_config selected = *run->config;
+    struct irb_trial *trials = NULL;
+    bool ok = true;
+    if (run->options->only_count) {
+        ok = select_trials(run->config, run->options, &trials, &selected.trial_count, err);
+        selected.trials = trials;
+    }
+    run->config = &selected;
+    for (int i = 0; ok && i < selected.scene_count; i++)
+        ok = run_scene(run, &selected.scenes[i], err);
+    free(trials);
+    return ok;
+}
+
+bool irb_run_experiment(const struct irb_config *config, const struct irb_run_options *options,
+                        char **run_dir, struct irb_error *err)
+{
+    struct irb_run run = begin_run(config, options);
+    bool ok = open_results(&run, err);
+    if (run.dir)
+        *run_dir = irb_strdup(run.dir);
+    ok = ok && run_scenes(&run, err);
+    run.config = config;
+    irb_run_work(&run, IRB_WORK_STARTUP);
+    if (run.store && (ok || (err && err->code == IRB_E_INTERRUPTED))) {
+        struct irb_error late;
+        if (!irb_provenance_store_seconds(&run, ok ? err : &late))
+            ok = false;
+        report_seconds(&run);
+    }
+    close_run(&run);
+    return ok;
+}
+
+static void print_keys(const struct irb_run *run, const struct irb_sequence *sequence, FILE *out)
+{
+    for (int i = 0; i < sequence->frame_count; i++) {
+        char *path = irb_cache_reference(run->cache, &sequence->frames[i].reference);
+        fprintf(out, "%s %s %d %s\n", sequence->frames[i].reference.hex, sequence->entry->name, i,
+                irb_fs_exists(path) ? "cached" : "missing");
+        free(path);
+    }
+}
+
+bool irb_run_references(const struct irb_config *config, const struct irb_run_options *options,
+                        FILE *keys, struct irb_error *err)
+{
+    struct irb_run run = begin_run(config, options);
+    bool ok = true;
+    for (int i = 0; ok && i < config->scene_count; i++) {
+        struct irb_sequence sequence;
+        irb_run_work(&run, IRB_WORK_STARTUP);
+        ok = irb_sequence_open(&sequence, config, &config->scenes[i], run.log, err);
+        if (!ok)
+            break;
+        ok = irb_prepare_gbuffers(&run, &sequence, err);
+        if (ok && keys)
+            print_keys(&run, &sequence, keys);
+        else if (ok)
+            ok = irb_prepare_references(&run, &sequence, err);
+        irb_sequence_close(&sequence);
+    }
+    close_run(&run);
+    return ok;
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Score: every rendered frame against the reference. Frames are the outer loop, so that each
+ * reference is read once; the trials of a frame are scored in parallel.
+ */
+#include "core/base/clock.h"
+#include "core/base/fs.h"
+#include "core/base/parallel.h"
+#include "core/experiment/keep.h"
+#include "core/experiment/score_frame.h"
+#include "core/experiment/paths.h"
+#include "core/score/metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct trial_scores {
+    struct irb_scored_trial trial;
+    struct irb_scored_frame previous; /* images of the last frame that was scored */
+    struct irb_frame_scores *frames;  /* one a frame of the sequence */
+    bool *fresh;                      /* computed in this run: still to be stored */
+    struct irb_error err;
+};
+
+struct scoring {
+    struct irb_run *run;
+    struct irb_sequence *sequence;
+    struct irb_target_constants constants;
+    struct irb_target target, previous_target;
+    struct irb_reprojection motion; /* source NULL while the camera rests */
+    int previous_frame;             /* of previous_target; -1 = none */
+    int frame;
+    struct trial_scores *trials;
+    int trial_count;
+};
+
+/* Scores one trial's current frame; runs on any thread, touches its own trial only. */
+static bool score_trial(void *user, int index, int thread)
+{
+    (void)thread;
+    struct scoring *s = user;
+    struct trial_scores *trial = &s->trials[index];
+    int frame = s->frame;
+    if (irb_frame_scores_present(&trial->frames[frame]))
+        return true;
+    struct irb_scored_frame current = {0};
+    if (frame > 0 && trial->previous.frame != frame - 1) {
+        irb_scored_frame_destroy(&trial->previous);
+        if (!irb_scored_frame_load(&trial->previous, s->run, &trial->trial, frame - 1,
+                                   &s->previous_target, &trial->err))
+            return false;
+    }
+    if (!irb_scored_frame_load(&current, s->run, &trial->trial, frame, &s->target, &trial->err))
+        return false;
+    struct irb_score_context context = {
+        .constants = &s->constants,
+        .target = &s->target,
+        .previous_target = frame > 0 ? &s->previous_target : NULL,
+        .motion = s->motion.source ? &s->motion : NULL,
+        .settings = s->run->config,
+    };
+    bool ok = irb_score_frame(&trial->frames[frame], &context, &trial->trial, &current,
+                              frame > 0 ? &trial->previous : NULL, &trial->err);
+    trial->fresh[frame] = ok;
+    irb_scored_frame_destroy(&trial->previous);
+    trial->previous = current;
+    return ok;
+}
+
+/* Target of this frame and of the one before it, and how one moved into the other. */
+static bool load_targets(struct scoring *s, struct irb_error *err)
+{
+    irb_reprojection_destroy(&s->motion);
+    if (s->frame > 0 && s->previous_frame != s->frame - 1) {
+        irb_target_destroy(&s->previous_target);
+        if (!irb_target_load(&s->previous_target, s->run, s->sequence, s->frame - 1,
+                             &s->constants, err))
+            return false;
+        s->previous_frame = s->frame - 1;
+    }
+    if (!irb_target_load(&s->target, s->run, s->sequence, s->frame, &s->constants, err))
+        return false;
+    if (s->frame == 0 || irb_sequence_same_camera(s->sequence, s->frame))
+        return true;
+    return irb_reproject(&s->motion, &s->target.gbuffer, &s->previous_target.gbuffer,
+                         &s->sequence->frames[s->frame - 1].camera, err);
+}
+
+static bool store_fresh(struct scoring *s, struct irb_error *err)
+{
+    irb_run_work(s->run, IRB_WORK_STORE);
+    for (int t = 0; t < s->trial_count; t++) {
+        struct trial_scores *trial = &s->trials[t];
+        if (!trial->fresh[s->frame])
+            continue;
+        if (!irb_frame_scores_store(&trial->frames[s->frame], s->run->store, trial->trial.id,
+                                    s->frame, err))
+            return false;
+    }
+    irb_run_work(s->run, IRB_WORK_SCORE);
+    return true;
+}
+
+static bool anything_missing(const struct scoring *s, int frame)
+{
+    for (int t = 0; t < s->trial_count; t++)
+        if (!irb_frame_scores_present(&s->trials[t].frames[frame]))
+            return true;
+    return false;
+}
+
+static bool score_one_frame(struct scoring *s, struct irb_error *err)
+{
+    if (!load_targets(s, err))
+        return false;
+    if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
+        for (int t = 0; t < s->trial_count; t++)
+            if (s->trials[t].err.code != IRB_E_OK && err)
+                *err = s->trials[t].err;
+        return false;
+    }
+    irb_target_destroy(&s->previous_target);
+    s->previous_target = s->target;
+    s->target = (struct irb_target){0};
+    s->previous_frame = s->frame;
+    return store_fresh(s, err);
+}
+
+static bool score_frames(struct scoring *s, struct irb_error *err)
+{
+    double start = irb_clock_s();
+    for (s->frame = 0; s->frame < s->sequence->frame_count; s->frame++) {
+        if (irb_run_stopped(s->run, err))
+            return false;
+        if (anything_missing(s, s->frame) && !score_one_frame(s, err))
+            return false;
+        irb_log_progress(s->run->log, "score", (s->frame + 1.0) / s->sequence->frame_count,
+                         irb_clock_s() - start);
+    }
+    irb_log_progress_done(s->run->log);
+    return true;
+}
+
+static bool open_trials(struct scoring *s, struct irb_error *err)
+{
+    const struct irb_config *config = s->run->config;
+    s->trials = calloc((size_t)config->trial_count, sizeof *s->trials);
+    if (!s->trials)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", config->trial_count);
+    for (int t = 0; t < config->trial_count; t++) {
+        struct trial_scores *trial = &s->trials[t];
+        size_t n = (size_t)config->render.frames;
+        s->trial_count = t + 1;
+        trial->previous.frame = -1;
+        trial->frames = calloc(n, sizeof *trial->frames);
+        trial->fresh = calloc(n, sizeof *trial->fresh);
+        if (!trial->frames || !trial->fresh)
+            return irb_fail(err, IRB_E_MEMORY, "no memory for the scores of %zu frames", n);
+        if (!irb_scored_trial_open(&trial->trial, s->run, s->sequence, &config->trials[t], err) ||
+            !irb_frame_scores_read(trial->frames, config->render.frames, s->run->store,
+                                   trial->trial.id, err))
+            return false;
+    }
+    return true;
+}
+
+static void close_scoring(struct scoring *s)
+{
+    for (int t = 0; t < s->trial_count; t++) {
+        irb_scored_frame_destroy(&s->trials[t].previous);
+        free(s->trials[t].frames);
+        free(s->trials[t].fresh);
+    }
+    free(s->trials);
+    irb_reprojection_destroy(&s->motion);
+    irb_target_destroy(&s->target);
+    irb_target_destroy(&s->previous_target);
+}
+
+/* Sequence figures, then the images of the frames that are kept; the others go. */
+static bool finish_trials(struct scoring *s, struct irb_error *err)
+{
+    for (int t = 0; t < s->trial_count; t++) {
+        struct trial_scores *trial = &s->trials[t];
+        if (irb_run_stopped(s->run, err) ||
+            !irb_sequence_scores_store(trial->frames, s->sequence->frame_count, &s->constants,
+                                       s->run->store, trial->trial.id, err))
+            return false;
+        int worst = irb_worst_frame(trial->frames, s->sequence->frame_count);
+        if (!irb_keep_trial(s->run, s->sequence, &trial->trial, &s->constants, worst, err))
+            return false;
+    }
+    return irb_keep_shared(s->run, s->sequence, err);
+}
+
+/* Whether a frame is left to score, or a scored one to be kept or removed. */
+static bool anything_to_do(const struct scoring *s)
+{
+    bool todo = false;
+    for (int i = 0; !todo && i < s->sequence->frame_count; i++) {
+        todo = anything_missing(s, i);
+        for (int t = 0; !todo && t < s->trial_count; t++) {
+            char *path = irb_run_file(s->run->dir, s->sequence->entry->name,
+                                      s->trials[t].trial.trial->name, "frame", i, "exr");
+            todo = irb_fs_exists(path);
+            free(path);
+        }
+    }
+    return todo;
+}
+
+bool irb_score_sequence(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err)
+{
+    struct scoring s = {.run = run, .sequence = sequence, .previous_frame = -1};
+    irb_run_work(run, IRB_WORK_SCORE);
+    bool ok = open_trials(&s, err);
+    if (ok && anything_to_do(&s)) {
+        irb_info(run->log, "%s: scoring %d trials", sequence->entry->name, s.trial_count);
+        ok = irb_target_constants_of(&s.constants, run, sequence, err) &&
+             irb_target_constants_store(&s.constants, run, sequence, err) && score_frames(&s, err);
+        irb_run_work(run, IRB_WORK_STORE);
+        ok = ok && finish_trials(&s, err);
+    }
+    close_scoring(&s);
+    return ok;
+}

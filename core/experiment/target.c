@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/experiment/target.h"
+#include "core/experiment/frame_file.h"
+#include "core/experiment/paths.h"
+#include "core/base/fs.h"
+#include "core/frame/composite.h"
+#include "core/image/exr.h"
+#include "core/score/metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void irb_target_destroy(struct irb_target *target)
+{
+    irb_gbuffer_image_destroy(&target->gbuffer);
+    free(target->mask);
+    irb_image_destroy(&target->direct);
+    irb_image_destroy(&target->indirect);
+    irb_image_destroy(&target->full);
+    irb_image_destroy(&target->solution);
+    irb_image_destroy(&target->claim);
+    *target = (struct irb_target){0};
+}
+
+/* The frame whose mask file holds for `frame`: the first one with the same camera. */
+static int mask_frame(const struct irb_sequence *sequence, int frame)
+{
+    while (frame > 0 && irb_sequence_same_camera(sequence, frame))
+        frame--;
+    return frame;
+}
+
+static bool make_mask(struct irb_target *target, const struct irb_run *run,
+                      const struct irb_sequence *sequence, int frame, struct irb_error *err)
+{
+    size_t pixels = irb_image_pixels(&target->gbuffer.position);
+    struct irb_image excluded = {0};
+    char *path = irb_run_file(run->dir, sequence->entry->name, NULL, "mask",
+                              mask_frame(sequence, frame), "exr");
+    bool ok = !irb_fs_exists(path) || irb_exr_read(path, "mask", "Y", &excluded, err);
+    free(path);
+    target->mask = ok ? malloc(pixels) : NULL;
+    if (ok && !target->mask)
+        ok = irb_fail(err, IRB_E_MEMORY, "no memory for a mask of %zu pixels", pixels);
+    for (size_t i = 0; ok && i < pixels; i++)
+        target->mask[i] =
+            target->gbuffer.position.data[4 * i + 3] > 0 && !(excluded.data && excluded.data[i] > 0);
+    irb_image_destroy(&excluded);
+    return ok;
+}
+
+/* bounce 2 and the rest onto `full`, with the receiver's albedo. */
+static bool add_higher_bounces(struct irb_target *target, struct irb_reference_image *reference,
+                               struct irb_error *err)
+{
+    size_t values = 3 * irb_image_pixels(&reference->bounce2);
+    for (size_t i = 0; i < values; i++)
+        reference->bounce2.data[i] += reference->rest.data[i];
+    struct irb_image higher = {0};
+    bool ok = irb_composite(&target->gbuffer, &target->full, &reference->bounce2, NULL, &higher,
+                            &target->solution, err);
+    irb_image_destroy(&higher);
+    return ok;
+}
+
+/* Variance of the indirect radiance: that of the irradiance's luminance times (albedo/pi)^2. */
+static void noise_of(struct irb_target *target, const struct irb_image *variance,
+                     const struct irb_target_constants *constants)
+{
+    size_t pixels = irb_image_pixels(variance), counted = 0;
+    double absolute = 0, relative = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        if (!target->mask[i])
+            continue;
+        const float *albedo = target->gbuffer.diffuse.data + 3 * i;
+        const float *radiance = target->indirect.data + 3 * i;
+        for (int c = 0; c < 3; c++) {
+            double noise = (double)albedo[c] * albedo[c] / (M_PI * M_PI) * variance->data[i] / 3;
+            absolute += noise;
+            if (constants)
+                relative += noise / ((double)radiance[c] * radiance[c] + constants->eps_indirect);
+        }
+        counted++;
+    }
+    target->noise_variance = counted ? absolute / (double)counted : 0;
+    target->noise_relmse = counted ? relative / (double)counted : 0;
+}
+
+static bool load_reference(struct irb_reference_image *reference, const struct irb_run *run,
+                           const struct irb_sequence_frame *frame, struct irb_error *err)
+{
+    char *path = irb_cache_reference(run->cache, &frame->reference);
+    bool ok = irb_reference_image_load(reference, path, err);
+    free(path);
+    return ok;
+}
+
+bool irb_target_load(struct irb_target *target, const struct irb_run *run,
+                     const struct irb_sequence *sequence, int frame,
+                     const struct irb_target_constants *constants, struct irb_error *err)
+{
+    *target = (struct irb_target){0};
+    struct irb_reference_image reference = {0};
+    struct irb_image unused = {0};
+    const struct irb_sequence_frame *pose = &sequence->frames[frame];
+    char *gbuffer = irb_cache_gbuffer(run->cache, &pose->gbuffer);
+    char *direct = irb_run_file(run->dir, sequence->entry->name, NULL, "direct", frame, "exr");
+    bool ok = irb_gbuffer_image_load(&target->gbuffer, gbuffer, err) &&
+              load_reference(&reference, run, pose, err) &&
+              make_mask(target, run, sequence, frame, err) &&
+              (!irb_fs_exists(direct) || irb_direct_file_load(direct, &target->direct, err)) &&
+              irb_composite(&target->gbuffer, &reference.direct, &reference.bounce1, NULL,
+                            &target->indirect, &target->full, err) &&
+              irb_composite(&target->gbuffer, &reference.direct, &reference.unoccluded, NULL,
+                            &target->claim, &unused, err) &&
+              add_higher_bounces(target, &reference, err);
+    if (ok)
+        noise_of(target, &reference.variance, constants);
+    irb_image_destroy(&unused);
+    irb_reference_image_destroy(&reference);
+    free(direct);
+    free(gbuffer);
+    if (!ok)
+        irb_target_destroy(target);
+    return ok;
+}
+
+/* The images of all frames that the exposures are taken from. */
+struct sequence_images {
+    struct irb_image *indirect, *full;
+    uint8_t **masks;
+    int count;
+};
+
+static void add_means(struct irb_target_constants *c, const struct irb_target *target, int frames)
+{
+    c->mean_indirect += irb_masked_mean(&target->indirect, target->mask) / frames;
+    c->mean_full += irb_masked_mean(&target->full, target->mask) / frames;
+    c->mean_solution += irb_masked_mean(&target->solution, target->mask) / frames;
+    c->mean_claim += irb_masked_mean(&target->claim, target->mask) / frames;
+}
+
+/* FLIP's exposures over all frames, through arrays of pointers. */
+static bool exposures_of(struct irb_image *images, uint8_t **masks, int count,
+                         struct irb_flip_exposures *out)
+{
+    const struct irb_image **references = malloc((size_t)count * sizeof *references);
+    if (!references)
+        return false;
+    for (int i = 0; i < count; i++)
+        references[i] = &images[i];
+    bool lit = irb_flip_exposures_of(references, (const uint8_t *const *)masks, count, out);
+    free(references);
+    return lit;
+}
+
+static bool collect_frames(struct sequence_images *images, struct irb_target_constants *c,
+                           const struct irb_run *run, const struct irb_sequence *sequence,
+                           struct irb_error *err)
+{
+    for (int i = 0; i < sequence->frame_count; i++) {
+        struct irb_target target;
+        if (!irb_target_load(&target, run, sequence, i, NULL, err))
+            return false;
+        add_means(c, &target, sequence->frame_count);
+        if (i == 0 && run->config->render.exposure <= 0)
+            c->exposure = irb_exposure_of(&target.full, &target.gbuffer);
+        images->indirect[i] = target.indirect;
+        images->full[i] = target.full;
+        images->masks[i] = target.mask;
+        images->count = i + 1;
+        target.indirect = target.full = (struct irb_image){0}; /* moved */
+        target.mask = NULL;
+        irb_target_destroy(&target);
+    }
+    return true;
+}
+
+bool irb_target_constants_of(struct irb_target_constants *constants, const struct irb_run *run,
+                             const struct irb_sequence *sequence, struct irb_error *err)
+{
+    *constants = (struct irb_target_constants){.exposure = run->config->render.exposure};
+    size_t n = (size_t)sequence->frame_count;
+    struct sequence_images images = {
+        .indirect = calloc(n, sizeof *images.indirect),
+        .full = calloc(n, sizeof *images.full),
+        .masks = calloc(n, sizeof *images.masks),
+    };
+    bool ok = images.indirect && images.full && images.masks;
+    if (!ok)
+        irb_fail(err, IRB_E_MEMORY, "no memory for %zu reference frames", n);
+    ok = ok && collect_frames(&images, constants, run, sequence, err);
+    if (ok) {
+        constants->eps_indirect = irb_relmse_eps(constants->mean_indirect);
+        constants->eps_full = irb_relmse_eps(constants->mean_full);
+        constants->eps_solution = irb_relmse_eps(constants->mean_solution);
+        constants->eps_claim = irb_relmse_eps(constants->mean_claim);
+        constants->indirect_lit = exposures_of(images.indirect, images.masks, images.count,
+                                               &constants->flip_indirect);
+        constants->full_lit =
+            exposures_of(images.full, images.masks, images.count, &constants->flip_full);
+    }
+    for (int i = 0; i < images.count; i++) {
+        irb_image_destroy(&images.indirect[i]);
+        irb_image_destroy(&images.full[i]);
+        free(images.masks[i]);
+    }
+    free(images.indirect);
+    free(images.full);
+    free(images.masks);
+    return ok;
+}

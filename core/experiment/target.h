@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What frames are scored against: the reference's layers composed with the G-buffer's albedo, and
+ * the constants that hold for a whole sequence (means, FLIP exposures, preview exposure).
+ */
+#ifndef IRB_EXPERIMENT_TARGET_H
+#define IRB_EXPERIMENT_TARGET_H
+
+#include "core/experiment/run.h"
+#include "core/score/flip.h"
+
+#include <stdint.h>
+
+/* One frame's reference images: radiance towards the eye, W/(m2 sr), 3 channels. */
+struct irb_target {
+    struct irb_gbuffer_image gbuffer;
+    uint8_t *mask;             /* pixels that count: geometry, same surface in run and reference */
+    struct irb_image direct;   /* the core's own direct light (PCF shadows), shared by the trials */
+    struct irb_image indirect; /* bounce 1 with exact visibility: the one target for rankings */
+    struct irb_image full;     /* exact direct + bounce 1 */
+    struct irb_image solution; /* exact direct + bounces 1..n */
+    struct irb_image claim;    /* bounce 1 without visibility */
+    double noise_variance;     /* mean variance of `indirect` over counted pixels */
+    double noise_relmse;       /* the same relative to indirect^2 + eps: an error below it says nothing */
+};
+
+/* Constants of a sequence; each is stored with the run. */
+struct irb_target_constants {
+    double mean_indirect, mean_full, mean_solution, mean_claim;
+    double eps_indirect, eps_full, eps_solution, eps_claim; /* of relMSE */
+    struct irb_flip_exposures flip_indirect, flip_full;
+    bool indirect_lit, full_lit; /* false: a black reference, FLIP is not defined */
+    double exposure;             /* of previews */
+    double noise;                /* reached, largest of the frames: see irb_reference_image */
+};
+
+/* constants may be NULL (noise_relmse is then 0). The direct light and the mask are read from the
+ * run where they exist. */
+bool irb_target_load(struct irb_target *target, const struct irb_run *run,
+                     const struct irb_sequence *sequence, int frame,
+                     const struct irb_target_constants *constants, struct irb_error *err);
+void irb_target_destroy(struct irb_target *target);
+
+bool irb_target_constants_of(struct irb_target_constants *constants, const struct irb_run *run,
+                             const struct irb_sequence *sequence, struct irb_error *err);
+
+#endif
