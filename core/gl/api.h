@@ -200,7 +200,8 @@
     X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                       \
     X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance)               \
     X(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXPROC, DrawElementsInstancedBaseVertex)                   \
-    X(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC, DrawElementsInstancedBaseVertexBaseInstance)\
+    X(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC,                                        \
+      DrawElementsInstancedBaseVertexBaseInstance)                                                 \
     X(PFNGLDRAWELEMENTSINDIRECTPROC, DrawElementsIndirect)                                         \
     X(PFNGLDRAWRANGEELEMENTSPROC, DrawRangeElements)                                               \
     X(PFNGLMULTIDRAWELEMENTSPROC, MultiDrawElements)                                               \

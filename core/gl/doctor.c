@@ -38,6 +38,11 @@ static void print_context(FILE *out, struct irb_gl *gl)
     fprintf(out, "  vendor    %s\n", gl->vendor);
     fprintf(out, "  renderer  %s%s\n", gl->renderer, gl->software ? " (software)" : "");
     fprintf(out, "  version   %s\n", gl->version);
+    fprintf(out, "  GPU       %s\n",
+            gl->software
+                ? "missing: rendering on the CPU; for a GPU install its vendor's EGL driver "
+                  "(in a container, pass the device through)"
+                : "OK");
     fprintf(out, "  timing    %s\n",
             gl->software ? "glFinish and monotonic clock" : "GL timer queries");
 }

@@ -14,11 +14,11 @@
 
 struct irb_texture_desc {
     const char *name; /* for messages and debug labels */
-    unsigned format;  /* GL_RGBA32F, GL_R32UI, GL_DEPTH_COMPONENT32F, ... */
+    unsigned format;  /* GL_RGBA32F, GL_R32UI, GL_DEPTH_COMPONENT32F, ...: those in format.c */
     int width, height;
     int layers;          /* 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY */
     int levels;          /* 0 means 1 */
-    bool linear;         /* bilinear filter; else nearest */
+    bool linear;         /* bilinear filter (trilinear with levels); else nearest */
     bool repeat;         /* wrap; else clamp to edge */
     bool shadow_compare; /* depth comparison (GL_LEQUAL) */
 };
@@ -26,18 +26,21 @@ struct irb_texture_desc {
 struct irb_texture {
     unsigned id, target, format;
     int width, height, layers, levels;
-    int64_t bytes;
+    int64_t bytes;     /* of all levels and layers, as the format is defined */
     struct irb_gl *gl; /* borrowed */
 };
 
+/* Contents are undefined. IRB_E_INPUT names a size beyond the driver's limits. */
 struct irb_texture *irb_texture_create(struct irb_gl *gl, const struct irb_texture_desc *desc,
                                        struct irb_error *err);
 void irb_texture_destroy(struct irb_texture *texture);
 /* Level 0 to a float image with the given number of channels (1..4), rows flipped so that row 0 is
- * the top. *image is created. Integer formats are not for this. */
+ * the top; the layers of an array one below the other. *image is created. Integer formats are not
+ * for this, depth formats with 1 channel. */
 bool irb_texture_read(const struct irb_texture *texture, int channels, struct irb_image *image,
                       struct irb_error *err);
-/* Uploads a float image (row 0 = top) into level 0. */
+/* Uploads a float image (row 0 = top, laid out as irb_texture_read gives it) into level 0. No
+ * conversion to sRGB: values go into GL_SRGB8_ALPHA8 as they are. */
 bool irb_texture_write(struct irb_texture *texture, const struct irb_image *image,
                        struct irb_error *err);
 
@@ -47,10 +50,11 @@ struct irb_buffer {
     struct irb_gl *gl; /* borrowed */
 };
 
-/* data may be NULL (contents undefined). */
+/* data may be NULL (contents undefined). For every target: uniform, storage, vertex, index. */
 struct irb_buffer *irb_buffer_create(struct irb_gl *gl, const char *name, int64_t bytes,
                                      const void *data, struct irb_error *err);
 void irb_buffer_destroy(struct irb_buffer *buffer);
+/* Waits for shaders that write it. A range outside the buffer is an error. */
 bool irb_buffer_read(const struct irb_buffer *buffer, int64_t offset, int64_t bytes, void *out,
                      struct irb_error *err);
 bool irb_buffer_write(struct irb_buffer *buffer, int64_t offset, int64_t bytes, const void *data,
@@ -62,8 +66,8 @@ struct irb_framebuffer {
     struct irb_gl *gl; /* borrowed */
 };
 
-/* Up to 8 colour textures (borrowed) and a depth texture (borrowed, may be NULL), level 0. Layered
- * when the textures are arrays. Fails unless complete. */
+/* Up to 8 colour textures (borrowed) and a depth texture (borrowed, may be NULL), level 0; all of
+ * one size. Layered when the textures are arrays. Fails unless complete. */
 struct irb_framebuffer *irb_framebuffer_create(struct irb_gl *gl, const char *name,
                                                struct irb_texture *const *colour, int colour_count,
                                                struct irb_texture *depth, struct irb_error *err);

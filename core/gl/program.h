@@ -22,6 +22,9 @@ struct irb_program {
     struct irb_gl *gl; /* borrowed */
 };
 
+/* The stages that are named are compiled and linked. NULL with IRB_E_INPUT: an unknown path (with
+ * the nearest one), an #include that fails, a compile error ("file:line: message"), a link error
+ * (with the program's name). See core/gl/glsl.h for the rules of #include. */
 struct irb_program *irb_program_create(struct irb_gl *gl, const struct irb_program_desc *desc,
                                        struct irb_error *err);
 void irb_program_destroy(struct irb_program *program);

@@ -166,6 +166,8 @@ bool irb_texture_read(const struct irb_texture *texture, int channels, struct ir
     bool ok = irb_image_create(image, texture->width, texture->height * layers, channels, err);
     if (ok) {
         char name[128] = "";
+        /* what shaders stored becomes visible to this read */
+        gl->api.MemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
         gl->api.GetTextureImage(texture->id, 0, client, GL_FLOAT, (GLsizei)bytes, pixels);
         read_label(texture, name);
         ok = irb_gl_check(gl, name, err);

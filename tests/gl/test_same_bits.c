@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * The two backends on llvmpipe give the same bits for the same shaders, and so does the same
- * backend twice: one context after the other in one process.
+ * backend twice, whatever the number of threads: one context after the other in one process.
  */
 #include "tests/support/compare.h"
 #include "tests/gl/fixture.h"
@@ -92,11 +92,14 @@ static void render(enum irb_backend backend, struct result *out, bool *software)
     irb_gl_destroy(gl);
 }
 
-static void compare(enum irb_backend first, enum irb_backend second)
+static void compare(enum irb_backend first, const char *threads_first, enum irb_backend second,
+                    const char *threads_second)
 {
     struct result a = {0}, b = {0};
     bool software[2];
+    setenv("LP_NUM_THREADS", threads_first, 1); /* llvmpipe reads it for each context */
     render(first, &a, &software[0]);
+    setenv("LP_NUM_THREADS", threads_second, 1);
     render(second, &b, &software[1]);
     if (!software[0] || !software[1]) {
         print_message("not compared: a GPU's bits are its own\n");
@@ -117,14 +120,21 @@ static void compare(enum irb_backend first, enum irb_backend second)
 static void test_backends_agree(void **data)
 {
     (void)data;
-    compare(IRB_BACKEND_OSMESA, IRB_BACKEND_EGL);
+    compare(IRB_BACKEND_OSMESA, "2", IRB_BACKEND_EGL, "2");
 }
 
 static void test_repeats_agree(void **data)
 {
     (void)data;
-    compare(IRB_BACKEND_EGL, IRB_BACKEND_EGL);
-    compare(IRB_BACKEND_OSMESA, IRB_BACKEND_OSMESA);
+    compare(IRB_BACKEND_EGL, "2", IRB_BACKEND_EGL, "2");
+    compare(IRB_BACKEND_OSMESA, "2", IRB_BACKEND_OSMESA, "2");
+}
+
+static void test_thread_count_does_not_matter(void **data)
+{
+    (void)data;
+    compare(IRB_BACKEND_OSMESA, "1", IRB_BACKEND_OSMESA, "2");
+    compare(IRB_BACKEND_EGL, "2", IRB_BACKEND_EGL, "3");
 }
 
 int main(void)
@@ -137,6 +147,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_backends_agree),
         cmocka_unit_test(test_repeats_agree),
+        cmocka_unit_test(test_thread_count_does_not_matter),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     fixture_remove(folder);
