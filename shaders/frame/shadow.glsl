@@ -13,7 +13,7 @@ uniform float rsm_half_extent;
 
 const int PCF_RADIUS = 2; /* 5 x 5 taps */
 const float BIAS_TEXELS = 1.0;    /* of a texel's footprint perpendicular to the light */
-const float MAX_SLOPE = 10.0;     /* tangent above which the plane is not followed further */
+const float MAX_SLOPE = 10.0;   /* tangent up to which the plane is followed away from the light */
 
 /* Distance (spot: from the apex; beam: along it) of the plane through `point` on the ray of the
  * image point `xy`. */
@@ -26,7 +26,7 @@ float plane_distance(vec3 point, vec3 normal, vec2 xy)
     return dot(normal, from_light) / dot(normal, normalize(light_direction + across));
 }
 
-/* Share of the taps that are lit; 1 outside the image. distance_to_light as the RSM stores it. */
+/* Share of the taps that are lit. distance_to_light as the RSM stores it. */
 float shadow_factor(vec3 point, vec3 normal, float distance_to_light)
 {
     int resolution = textureSize(rsm_normal, 0).x;
@@ -41,16 +41,15 @@ float shadow_factor(vec3 point, vec3 normal, float distance_to_light)
     float lit = 0.0;
     for (int y = -PCF_RADIUS; y <= PCF_RADIUS; y++) {
         for (int x = -PCF_RADIUS; x <= PCF_RADIUS; x++) {
-            ivec2 texel = centre + ivec2(x, y);
-            bool inside = all(greaterThanEqual(texel, ivec2(0))) &&
-                          all(lessThan(texel, ivec2(resolution)));
-            float blocker = inside ? texelFetch(rsm_normal, texel, 0).w : 0.0;
+            /* beyond the border the nearest texel stands in: counting those taps as lit would draw
+             * the rim of the cone onto surfaces in shadow */
+            ivec2 texel = clamp(centre + ivec2(x, y), ivec2(0), ivec2(resolution - 1));
+            float blocker = texelFetch(rsm_normal, texel, 0).w;
             vec2 xy = (vec2(texel) + 0.5) * side - rsm_half_extent;
             float receiver = plane_distance(point, normal, xy);
             /* beyond the plane's horizon the quotient changes sign or grows without bound */
             receiver = receiver > 0.0 ? min(receiver, distance_to_light + reach)
                                       : distance_to_light + reach;
-            receiver = max(receiver, distance_to_light - reach);
             lit += blocker == 0.0 || blocker >= receiver - bias ? 1.0 : 0.0;
         }
     }
