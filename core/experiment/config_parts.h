@@ -7,7 +7,7 @@
 #define IRB_EXPERIMENT_CONFIG_PARTS_H
 
 #include "core/experiment/config.h"
-#include "core/experiment/yaml.h"
+#include "core/experiment/yaml_tree.h"
 
 /* Names become file names and table keys. */
 enum { IRB_LONGEST_NAME = 64 };
@@ -34,5 +34,8 @@ bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
 bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
                      struct irb_error *err);
 void irb_trial_rename(struct irb_trial *trial);
+/* irb_option_set() on its parameters. */
+bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
+                   struct irb_error *err);
 
 #endif

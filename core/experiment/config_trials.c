@@ -19,7 +19,7 @@ static bool set_param(struct irb_trial *trial, struct irb_yaml *yaml, irb_yaml_n
     irb_yaml_node value = irb_yaml_value(yaml, params, index);
     const char *name = (const char *)key->data.scalar.value;
     if (!irb_option_find(trial->method->params, name)) {
-        irb_option_set(trial->method->params, trial->params, name, "", err); /* names the nearest */
+        irb_trial_set(trial, name, "", err); /* names the nearest */
         irb_error_prefix(err, "%s", trial->method->name);
         return irb_yaml_prefix(yaml, key, err);
     }
@@ -31,7 +31,7 @@ static bool set_param(struct irb_trial *trial, struct irb_yaml *yaml, irb_yaml_n
     const char *text = irb_yaml_text(yaml, value, name, err);
     if (!text)
         return false;
-    if (irb_option_set(trial->method->params, trial->params, name, text, err))
+    if (irb_trial_set(trial, name, text, err))
         return true;
     irb_error_prefix(err, "%s", trial->method->name);
     return irb_yaml_prefix(yaml, value, err);

@@ -32,6 +32,16 @@ void irb_trial_rename(struct irb_trial *trial)
     irb_str_free(&changed);
 }
 
+bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
+                   struct irb_error *err)
+{
+    const struct irb_method *method = trial->method;
+    if (!method->params->name)
+        return irb_fail(err, IRB_E_INPUT, "unknown key '%.64s'; %s has no parameters", name,
+                        method->name);
+    return irb_option_set(method->params, trial->params, name, text, err);
+}
+
 void irb_trial_destroy(struct irb_trial *trial)
 {
     free(trial->params);
@@ -54,7 +64,7 @@ static bool set_option(struct irb_trial *trial, char *assignment, struct irb_str
     free(key);
     if (twice)
         return irb_fail(err, IRB_E_INPUT, "'%.64s' is given twice", assignment);
-    return irb_option_set(trial->method->params, trial->params, assignment, equals + 1, err);
+    return irb_trial_set(trial, assignment, equals + 1, err);
 }
 
 static bool set_options(struct irb_trial *trial, char *text, struct irb_error *err)

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Two methods without code: what a config needs to know of a method is its name and parameters.
+ */
+#ifndef IRB_TESTS_EXPERIMENT_MOCK_METHODS_H
+#define IRB_TESTS_EXPERIMENT_MOCK_METHODS_H
+
+#include "methods/registry.h"
+
+struct mock_params {
+    int mode, samples;
+    float clamp;
+    bool shared;
+};
+
+static const char *const mock_modes[] = {"all", "uniform", "importance", NULL};
+
+static const struct irb_option mock_options[] = {
+    IRB_OPTION_ENUM(struct mock_params, mode, 1, mock_modes, "which texels", "test"),
+    IRB_OPTION_INT(struct mock_params, samples, 400, 1, 4096, "", "samples", "test"),
+    IRB_OPTION_FLOAT(struct mock_params, clamp, 0.1, 0, 10, "m", "distance", "test"),
+    IRB_OPTION_BOOL(struct mock_params, shared, 1, "one set for all pixels", "test"),
+    IRB_OPTION_END,
+};
+static const struct irb_method mock_rsm = {
+    .name = "rsm", .params_size = sizeof(struct mock_params), .params = mock_options};
+
+static const struct irb_option mock_no_options[] = {IRB_OPTION_END};
+static const struct irb_method mock_plain = {.name = "plain", .params = mock_no_options};
+
+static const struct irb_registry mock_registry = {.methods = {&mock_rsm, &mock_plain}, .count = 2};
+
+#endif

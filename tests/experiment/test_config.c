@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Configs that are right: every value arrives where it belongs.
+ */
+#include "core/base/fs.h"
+#include "core/experiment/config.h"
+#include "tests/support/compare.h"
+
+#include "tests/experiment/mock_methods.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/irb_config_XXXXXX";
+
+static int set_up(void **state)
+{
+    (void)state;
+    struct irb_error err;
+    if (!mkdtemp(folder))
+        return -1;
+    char *scene = irb_asprintf("%s/my hall.v2.glb", folder);
+    bool ok = irb_fs_write(scene, "x", 1, &err);
+    free(scene);
+    return ok ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char *command = irb_asprintf("rm -rf '%s'", folder);
+    int status = system(command);
+    free(command);
+    return status;
+}
+
+static void load(struct irb_config *config, const char *text, const char *const *overrides)
+{
+    struct irb_error err = {0};
+    char *path = irb_asprintf("%s/some.study.yaml", folder);
+    REQUIRE_OK(irb_fs_write(path, text, strlen(text), &err));
+    REQUIRE_OK(irb_config_load(config, path, overrides, &mock_registry, &err));
+    assert_string_equal(config->path, path);
+    free(path);
+}
+
+static void expect_vector(const float v[3], double x, double y, double z)
+{
+    REQUIRE_NEAR(v[0], x, 1e-6);
+    REQUIRE_NEAR(v[1], y, 1e-6);
+    REQUIRE_NEAR(v[2], z, 1e-6);
+}
+
+static const char full_text[] =
+    "# every key there is\n"
+    "name: quick\n"
+    "seed: 7\n"
+    "resolution: [256, 192]\n"
+    "frames: 9\n"
+    "settle: 0\n"
+    "rsm_resolution: 128\n"
+    "exposure: 0.5\n"
+    "repeats: 3\n"
+    "reference: {min_samples: 16, max_samples: 128, noise: 0.02, bounces: 4, unoccluded: true}\n"
+    "scenes:\n"
+    "  - scene: cornell\n"
+    "    name: corner\n"
+    "    camera:\n"
+    "      interpolation: catmull-rom\n"
+    "      near: 0.01\n"
+    "      far: 50\n"
+    "      keys:\n"
+    "        - {frame: 0, position: [0, 1, 2], target: [0, 1, 0], up: [0, 2, 0], fov: 40}\n"
+    "        - {frame: 4.5, position: [1, 1, 2]}\n"
+    "    light:\n"
+    "      type: spot\n"
+    "      falloff: cosine\n"
+    "      interpolation: catmull-rom\n"
+    "      keys:\n"
+    "        - {frame: 0, position: [1, 2, 3], target: [0, 0, 0], intensity: [1, 2, 3],"
+    " cone: 30, inner: 5}\n"
+    "        - {frame: 8, position: [1, 2, 4], intensity: 6}\n"
+    "  - scene: my hall.v2.glb\n"
+    "    camera: {position: [0, 1, 2], target: [0, 1, 0]}\n"
+    "    light: {type: directional, position: [0, 5, 0], target: [0, 0, 1], intensity: 2,"
+    " beam_half_width: 3}\n"
+    "trials:\n"
+    "  - rsm: {mode: all, samples: 9}\n"
+    "  - rsm:mode=importance\n"
+    "  - rsm\n"
+    "  - plain:\n";
+
+static void test_every_key(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c, full_text, NULL);
+    assert_string_equal(c.name, "quick");
+    assert_int_equal(c.seed, 7);
+    assert_int_equal(c.render.width, 256);
+    assert_int_equal(c.render.height, 192);
+    assert_int_equal(c.render.frames, 9);
+    assert_int_equal(c.render.settle, 0);
+    assert_int_equal(c.render.rsm_resolution, 128);
+    REQUIRE_NEAR(c.render.exposure, 0.5, 0);
+    assert_int_equal(c.render.repeats, 3);
+    assert_int_equal(c.reference.min_samples, 16);
+    assert_int_equal(c.reference.max_samples, 128);
+    REQUIRE_NEAR(c.reference.noise, 0.02, 1e-8);
+    assert_int_equal(c.reference.bounces, 4);
+    assert_true(c.reference.unoccluded);
+
+    assert_int_equal(c.trial_count, 4);
+    assert_string_equal(c.trials[0].name, "rsm:mode=all:samples=9");
+    assert_string_equal(c.trials[1].name, "rsm:mode=importance");
+    assert_string_equal(c.trials[2].name, "rsm");
+    assert_string_equal(c.trials[3].name, "plain");
+    assert_int_equal(((const struct mock_params *)c.trials[0].params)->samples, 9);
+    assert_int_equal(((const struct mock_params *)c.trials[1].params)->mode, 2);
+    irb_config_destroy(&c);
+}
+
+static void test_scripts(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c, full_text, NULL);
+    assert_int_equal(c.scene_count, 2);
+    assert_string_equal(c.scenes[0].name, "corner");
+    assert_string_equal(c.scenes[0].source, "cornell");
+    const struct irb_animation *a = &c.scenes[0].animation;
+    assert_int_equal(a->camera_interpolation, IRB_CATMULL_ROM);
+    REQUIRE_NEAR(a->z_near, 0.01, 1e-8);
+    REQUIRE_NEAR(a->z_far, 50, 0);
+    assert_int_equal(a->camera_key_count, 2);
+    expect_vector(a->camera_keys[0].position, 0, 1, 2);
+    expect_vector(a->camera_keys[0].up, 0, 2, 0);
+    REQUIRE_NEAR(a->camera_keys[0].fov, 40, 0);
+    REQUIRE_NEAR(a->camera_keys[1].frame, 4.5, 0);
+    expect_vector(a->camera_keys[1].position, 1, 1, 2);
+    expect_vector(a->camera_keys[1].target, 0, 1, 0); /* from the key before */
+    REQUIRE_NEAR(a->camera_keys[1].fov, 40, 0);
+
+    assert_int_equal(a->light_type, IRB_LIGHT_SPOT);
+    assert_int_equal(a->falloff, IRB_FALLOFF_COSINE);
+    assert_int_equal(a->light_interpolation, IRB_CATMULL_ROM);
+    assert_int_equal(a->light_key_count, 2);
+    expect_vector(a->light_keys[0].intensity, 1, 2, 3);
+    REQUIRE_NEAR(a->light_keys[0].inner, 5, 0);
+    expect_vector(a->light_keys[1].position, 1, 2, 4);
+    expect_vector(a->light_keys[1].intensity, 6, 6, 6);
+    REQUIRE_NEAR(a->light_keys[1].cone, 30, 0);
+
+    char *source = irb_asprintf("%s/my hall.v2.glb", folder);
+    assert_string_equal(c.scenes[1].source, source);
+    free(source);
+    assert_string_equal(c.scenes[1].name, "my-hall.v2");
+    a = &c.scenes[1].animation;
+    assert_int_equal(a->light_type, IRB_LIGHT_DIRECTIONAL);
+    REQUIRE_NEAR(a->beam_half_width, 3, 0);
+    assert_int_equal(a->light_key_count, 1);
+    expect_vector(a->light_keys[0].target, 0, 0, 1);
+    expect_vector(a->camera_keys[0].up, 0, 1, 0);
+    assert_int_equal(a->camera_interpolation, IRB_LINEAR);
+    irb_config_destroy(&c);
+}
+
+static void test_shortest(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c, "scene: cornell\ntrials: [rsm]\n", NULL);
+    assert_string_equal(c.name, "some.study");
+    assert_int_equal(c.seed, 1);
+    assert_int_equal(c.render.settle, 16);
+    assert_string_equal(c.scenes[0].name, "cornell");
+    assert_int_equal(c.scenes[0].animation.light_key_count, 1);
+    assert_int_equal(c.scenes[0].animation.camera_key_count, 1);
+    irb_config_destroy(&c);
+}
+
+/* One setting of a built-in's light changes, the rest stays as the built-in has it. */
+static void test_built_in_view_is_kept(void **state)
+{
+    (void)state;
+    struct irb_config plain, brighter;
+    load(&plain, "scene: cornell\ntrials: [rsm]\n", NULL);
+    load(&brighter,
+         "scene: cornell\n"
+         "light: {intensity: 77}\n"
+         "trials: [rsm]\n",
+         NULL);
+    const struct irb_light_key *a = &plain.scenes[0].animation.light_keys[0];
+    const struct irb_light_key *b = &brighter.scenes[0].animation.light_keys[0];
+    expect_vector(b->intensity, 77, 77, 77);
+    expect_vector(b->position, a->position[0], a->position[1], a->position[2]);
+    REQUIRE_NEAR(b->cone, a->cone, 0);
+    assert_int_equal(brighter.scenes[0].animation.falloff, plain.scenes[0].animation.falloff);
+    irb_config_destroy(&plain);
+    irb_config_destroy(&brighter);
+}
+
+static void test_aliases(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c,
+         "scenes:\n"
+         "  - scene: cornell\n"
+         "    light: &moving {keys: [{frame: 0, intensity: 1}, {frame: 3, intensity: 2}]}\n"
+         "  - scene: cornell\n"
+         "    name: again\n"
+         "    light: *moving\n"
+         "trials: [rsm]\n",
+         NULL);
+    assert_int_equal(c.scenes[1].animation.light_key_count, 2);
+    expect_vector(c.scenes[1].animation.light_keys[1].intensity, 2, 2, 2);
+    irb_config_destroy(&c);
+}
+
+static void test_environment(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    setenv("IRB_TEST_FOLDER", folder, 1);
+    load(&c,
+         "scene: ${IRB_TEST_FOLDER}/my hall.v2.glb\n"
+         "camera: {position: [0, 1, 2], target: [0, 1, 0]}\n"
+         "light: {position: [0, 5, 0], target: [0, 0, 1], intensity: 2}\n"
+         "trials: [rsm]\n",
+         NULL);
+    char *source = irb_asprintf("%s/my hall.v2.glb", folder);
+    assert_string_equal(c.scenes[0].source, source);
+    free(source);
+    unsetenv("IRB_TEST_FOLDER");
+    irb_config_destroy(&c);
+}
+
+static void test_overrides(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c, full_text,
+         (const char *const[]){"seed=8", "frames=2", "resolution=64x48", "reference.noise=0.5",
+                               "reference.unoccluded=false", "name=slow", "frames=3", NULL});
+    assert_int_equal(c.seed, 8);
+    assert_int_equal(c.render.frames, 3); /* the last one wins */
+    assert_int_equal(c.render.width, 64);
+    assert_int_equal(c.render.height, 48);
+    REQUIRE_NEAR(c.reference.noise, 0.5, 0);
+    assert_false(c.reference.unoccluded);
+    assert_int_equal(c.reference.bounces, 4);
+    assert_string_equal(c.name, "slow");
+    irb_config_destroy(&c);
+    load(&c, full_text, (const char *const[]){"resolution=32,16", "width=33", NULL});
+    assert_int_equal(c.render.width, 33);
+    assert_int_equal(c.render.height, 16);
+    irb_config_destroy(&c);
+}
+
+static struct irb_key key_with(const char *text, const char *override)
+{
+    struct irb_config c;
+    load(&c, text, (const char *const[]){override, NULL});
+    struct irb_key key = irb_config_key(&c);
+    irb_config_destroy(&c);
+    return key;
+}
+
+static void test_key(void **state)
+{
+    (void)state;
+    struct irb_key key = key_with(full_text, NULL);
+    assert_string_equal(key_with(full_text, NULL).hex, key.hex);
+    /* not what a name, a comment or the notation says */
+    assert_string_equal(key_with(full_text, "name=other").hex, key.hex);
+    assert_string_equal(key_with(full_text, "frames=9").hex, key.hex);
+    assert_string_equal(
+        key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,
+        key_with("trials: [{rsm: {mode: all}}]\nscenes: [{scene: cornell}]", NULL).hex);
+    /* but everything that changes a result */
+    static const char *const changes[] = {
+        "seed=8",    "frames=10",           "resolution=64x48",    "rsm_resolution=64", "settle=1",
+        "repeats=1", "reference.noise=0.5", "reference.bounces=3", "exposure=1",
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++)
+        if (!strcmp(key_with(full_text, changes[i]).hex, key.hex))
+            fail_msg("%s does not change the key", changes[i]);
+    static const char *const texts[] = {
+        "scene: cornell\ntrials: [rsm]",
+        "scene: cornell\ntrials: ['rsm:samples=1']",
+        "scene: cornell\ntrials: [rsm, 'rsm:samples=1']",
+        "scene: cornell\ntrials: [plain]",
+        "scene: sphere\ntrials: [rsm]",
+        "scenes: [{scene: cornell, name: x}]\ntrials: [rsm]",
+        "scene: cornell\nlight: {intensity: 9}\ntrials: [rsm]",
+        "scene: cornell\nlight: {interpolation: catmull-rom}\ntrials: [rsm]",
+        "scene: cornell\nlight: {falloff: smooth}\ntrials: [rsm]",
+        "scene: cornell\nlight: {keys: [{frame: 0}, {frame: 1}]}\ntrials: [rsm]",
+        "scene: cornell\nlight: {keys: [{frame: 0}, {frame: 2}]}\ntrials: [rsm]",
+        "scene: cornell\ncamera: {fov: 11}\ntrials: [rsm]",
+        "scene: cornell\ncamera: {near: 0.1}\ntrials: [rsm]",
+    };
+    enum { TEXTS = sizeof texts / sizeof *texts };
+    struct irb_key keys[TEXTS];
+    for (int i = 0; i < TEXTS; i++) {
+        keys[i] = key_with(texts[i], NULL);
+        for (int j = 0; j < i; j++)
+            if (!strcmp(keys[i].hex, keys[j].hex))
+                fail_msg("one key for '%s' and '%s'", texts[i], texts[j]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_key), cmocka_unit_test(test_scripts),
+        cmocka_unit_test(test_shortest),  cmocka_unit_test(test_built_in_view_is_kept),
+        cmocka_unit_test(test_aliases),   cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_overrides), cmocka_unit_test(test_key),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

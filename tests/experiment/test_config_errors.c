@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Configs that are wrong: one line each that says where, what was expected and what was found.
+ */
+#include "core/base/fs.h"
+#include "core/experiment/config.h"
+#include "tests/support/compare.h"
+
+#include "tests/experiment/mock_methods.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/irb_config_XXXXXX";
+
+static int set_up(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char *command = irb_asprintf("rm -rf '%s'", folder);
+    int status = system(command);
+    free(command);
+    return status;
+}
+
+static char *config_path(void)
+{
+    return irb_asprintf("%s/c.yaml", folder);
+}
+
+/* Loads `size` bytes of text as a config; the message must be exactly `expected`, in which "@" at
+ * the start stands for the config's path. */
+static void expect_bytes(const char *text, size_t size, const char *const *overrides,
+                         const char *expected)
+{
+    struct irb_error err = {0};
+    struct irb_config config;
+    char *path = config_path();
+    REQUIRE_OK(irb_fs_write(path, text, size, &err));
+    if (irb_config_load(&config, path, overrides, &mock_registry, &err))
+        fail_msg("accepted: %s", text);
+    assert_int_equal(err.code, IRB_E_INPUT);
+    assert_int_equal(config.scene_count, 0);
+    char *whole =
+        *expected == '@' ? irb_asprintf("%s%s", path, expected + 1) : irb_strdup(expected);
+    if (strcmp(err.message, whole))
+        fail_msg("found    %s\nexpected %s\nfor\n%s", err.message, whole, text);
+    free(whole);
+    free(path);
+}
+
+static void expect(const char *text, const char *expected)
+{
+    expect_bytes(text, strlen(text), NULL, expected);
+}
+
+/* `text` between a scene and the trials: its first line is line 2 of the file. */
+static void expect_top(const char *text, const char *expected)
+{
+    char *whole = irb_asprintf("scene: cornell\n%s\ntrials: [rsm]\n", text);
+    expect(whole, expected);
+    free(whole);
+}
+
+static void expect_trial(const char *text, const char *expected)
+{
+    char *whole = irb_asprintf("scene: cornell\ntrials:\n  - %s\n", text);
+    expect(whole, expected);
+    free(whole);
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    struct irb_error err = {0};
+    struct irb_config config;
+    assert_false(irb_config_load(&config, "/nowhere/c.yaml", NULL, &mock_registry, &err));
+    assert_string_equal(err.message, "/nowhere/c.yaml: cannot open: No such file or directory");
+    assert_false(irb_config_load(&config, folder, NULL, &mock_registry, &err));
+    assert_non_null(strstr(err.message, "expected a file"));
+    enum { HUGE_SIZE = (1 << 20) + 1 };
+    char *huge = calloc(1, HUGE_SIZE);
+    memset(huge, '\n', HUGE_SIZE);
+    expect_bytes(huge, HUGE_SIZE, NULL, "@: expected at most 1048576 bytes, found 1048577");
+    free(huge);
+}
+
+static void test_syntax(void **state)
+{
+    (void)state;
+    expect("", "@:1:1: expected scenes: and trials:, found an empty file");
+    expect("# nothing\n", "@:1:1: expected scenes: and trials:, found an empty file");
+    expect("scene: [cornell\ntrials: 3\n",
+           "@:2:7: not valid YAML: did not find expected ',' or ']' (while parsing a flow sequence "
+           "that begins at line 1)");
+    expect("scene: cornell\n  frames: 3\n",
+           "@:2:9: not valid YAML: mapping values are not allowed in this context");
+    expect("scene: \"cornell\n", "@:2:1: not valid YAML: found unexpected end of stream (while "
+                                 "scanning a quoted scalar that begins at line 1)");
+    expect(
+        "scene:\tcornell\n\ttrials: 3\n",
+        "@:2:1: not valid YAML: found a tab character that violates indentation (while scanning a "
+        "plain scalar that begins at line 1)");
+    expect("scene: *nothing\n", "@:1:8: not valid YAML: found undefined alias");
+    expect("scene: corn\xff\n", "@:1:12: not valid YAML: invalid leading UTF-8 octet");
+    expect("- a\n- b\n", "@:1:1: config: expected a map of keys, found a list");
+    expect("cornell\n", "@:1:1: config: expected a map of keys, found a single value");
+    expect("scene: cornell\ntrials: [rsm]\n---\nscene: cornell\n",
+           "@:4:1: expected one YAML document, found another");
+    expect("? [a]\n: b\n", "@:1:3: a key: expected a single value, found a list");
+    expect("scene: \"corn\\0ell\"\n", "@:1:8: scene: expected text, found a zero byte in it");
+    expect("scene: cornell\n<<: {frames: 3}\n",
+           "@:2:1: config: merge keys (<<) are not supported; use an alias for a whole value");
+}
+
+static void test_deep_nesting(void **state)
+{
+    (void)state;
+    enum { DEPTH = 100000 };
+    struct irb_str text = {0};
+    irb_str_printf(&text, "scene: ");
+    for (int i = 0; i < DEPTH; i++)
+        irb_str_append(&text, "[", 1);
+    struct irb_error err = {0};
+    struct irb_config config;
+    char *path = config_path();
+    REQUIRE_OK(irb_fs_write(path, text.text, text.length, &err));
+    assert_false(irb_config_load(&config, path, NULL, &mock_registry, &err));
+    assert_int_equal(err.code, IRB_E_INPUT);
+    assert_non_null(strstr(err.message, "not valid YAML"));
+    irb_str_free(&text);
+    free(path);
+}
+
+static void test_top(void **state)
+{
+    (void)state;
+    expect_top("frame: 3", "@:2:1: config: unknown key 'frame'; did you mean 'frames'?");
+    expect_top("a-key-like-nothing-else: 3",
+               "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
+               "resolution, reference, scenes, scene, camera, light, trials, width, height, "
+               "frames, settle, rsm_resolution, exposure, repeats");
+    expect_top("frames: 3\nframes: 4",
+               "@:3:1: config: 'frames' stands here twice, first in line 2");
+    expect_top("frames: 0", "@:2:9: frames: expected a whole number in [1, 100000]; found '0'");
+    expect_top("frames: many",
+               "@:2:9: frames: expected a whole number in [1, 100000]; found 'many'");
+    expect_top("frames: 2.5", "@:2:9: frames: expected a whole number in [1, 100000]; found '2.5'");
+    expect_top("frames:", "@:2:8: frames: expected a whole number in [1, 100000]; found ''");
+    expect_top("frames: [3, 4]", "@:2:9: frames: expected a single value, found a list");
+    expect_top("frames: {a: 4}", "@:2:9: frames: expected a single value, found a map");
+    expect_top("settle: -1", "@:2:9: settle: expected a whole number in [0, 10000]; found '-1'");
+    expect_top("exposure: .nan", "@:2:11: exposure: expected a number in [0, 1e+09]; found '.nan'");
+    expect_top("exposure: nan", "@:2:11: exposure: expected a number in [0, 1e+09]; found 'nan'");
+    expect_top("seed: -1", "@:2:7: seed: expected a whole number in [0, 2.14748e+09]; found '-1'");
+    expect_top("name: a/b", "@:2:7: name: expected 1 to 64 letters, digits, '.', '_' or '-', found "
+                            "'a/b'");
+    expect_top("name: ..", "@:2:7: name: expected 1 to 64 letters, digits, '.', '_' or '-', found "
+                           "'..'");
+    expect_top("resolution: 256", "@:2:13: resolution: expected [width, height], found a single "
+                                  "value");
+    expect_top("resolution: [256]",
+               "@:2:13: resolution: expected [width, height], found too few numbers");
+    expect_top("resolution: [1, 2, 3]",
+               "@:2:13: resolution: expected [width, height], found too many numbers");
+    expect_top(
+        "resolution: [256, 0]",
+        "@:2:13: resolution: height: expected a whole number in [1, 8192] pixels; found '0'");
+    expect_top("resolution: [256, [1]]",
+               "@:2:19: resolution: expected a single value, found a list");
+    expect_top("resolution: [256, 192]\nwidth: 3",
+               "@:3:8: width: expected resolution: alone, found both");
+}
+
+static void test_reference(void **state)
+{
+    (void)state;
+    expect_top("reference: 3", "@:2:12: reference: expected a map of keys, found a single value");
+    expect_top("reference: {nois: 3}",
+               "@:2:13: reference: unknown key 'nois'; did you mean 'noise'?");
+    expect_top("reference:\n  noise: [1]", "@:3:10: noise: expected a single value, found a list");
+    expect_top("reference:\n  unoccluded: maybe",
+               "@:3:15: reference: unoccluded: expected true or false; found 'maybe'");
+    expect_top("reference: {noise: 1, noise: 2}",
+               "@:2:23: reference: 'noise' stands here twice, first in line 2");
+    expect_top("reference: {min_samples: 64, max_samples: 32}",
+               "@: reference: expected min_samples to be at most max_samples, found 64 and 32");
+}
+
+static void test_scenes(void **state)
+{
+    (void)state;
+    expect("trials: [rsm]\n", "@:1:1: scenes: missing; expected a list of scenes, or one scene:");
+    expect("scenes: []\ntrials: [rsm]\n",
+           "@:1:9: scenes: expected a list of scenes, found an empty one");
+    expect("scenes: cornell\ntrials: [rsm]\n",
+           "@:1:9: scenes: expected a list of scenes, found a single value");
+    expect("scenes: [cornell]\ntrials: [rsm]\n",
+           "@:1:10: scene: expected a map of keys, found a single value");
+    expect("scenes: [{name: a}]\ntrials: [rsm]\n",
+           "@:1:10: scene: missing; expected a built-in's name or a path");
+    expect("scenes: [{scene: cornell, lamp: 3}]\ntrials: [rsm]\n",
+           "@:1:27: scene: unknown key 'lamp'; did you mean 'name'?");
+    expect("scenes: [{scene: cornell}, {scene: cornell}]\ntrials: [rsm]\n",
+           "@:1:28: two scenes are called 'cornell'; give one of them another name:");
+    expect("scenes: [{scene: cornell}, {scene: sphere, name: cornell}]\ntrials: [rsm]\n",
+           "@:1:50: two scenes are called 'cornell'; give one of them another name:");
+    expect("scenes: [{scene: cornell, name: a b}]\ntrials: [rsm]\n",
+           "@:1:33: name: expected 1 to 64 letters, digits, '.', '_' or '-', found 'a b'");
+    expect("scene: cornell\nscenes: [{scene: sphere}]\ntrials: [rsm]\n",
+           "@:1:8: scene: expected inside the entries of scenes:, found beside it");
+    expect("light: {cone: 3}\nscenes: [{scene: sphere}]\ntrials: [rsm]\n",
+           "@:1:8: light: expected inside the entries of scenes:, found beside it");
+    expect(
+        "scene: cornel\ntrials: [rsm]\n",
+        "@:1:8: scene: there is no built-in scene and no file 'cornel'; did you mean 'cornell'?");
+    expect("scene: [cornell]\ntrials: [rsm]\n",
+           "@:1:8: scene: expected a single value, found a list");
+    expect("scene:\ntrials: [rsm]\n",
+           "@:1:7: scene: expected a built-in's name or a path, found nothing");
+    expect("scene: /nowhere/hall.glb\ntrials: [rsm]\n",
+           "@:1:8: scene: there is no file '/nowhere/hall.glb'");
+    char *relative = irb_asprintf("@:1:8: scene: there is no file '%s/sub/hall.glb'", folder);
+    expect("scene: sub/hall.glb\ntrials: [rsm]\n", relative);
+    free(relative);
+}
+
+static void test_environment(void **state)
+{
+    (void)state;
+    unsetenv("IRB_TEST_NOTHING");
+    expect("trials: [rsm]\nscenes:\n  - scene: ${IRB_TEST_NOTHING}/a.glb\n",
+           "@:3:12: scene: the environment variable IRB_TEST_NOTHING is not set; it should name a "
+           "folder");
+    setenv("IRB_TEST_NOTHING", "", 1);
+    expect("scene: ${IRB_TEST_NOTHING}/a.glb\n",
+           "@:1:8: scene: the environment variable IRB_TEST_NOTHING is not set; it should name a "
+           "folder");
+    expect("scene: a${IRB_TEST\n", "@:1:8: scene: expected ${NAME}, found '${IRB_TEST'");
+    expect("scene: ${}/a.glb\n", "@:1:8: scene: expected ${NAME}, found '${}/a.glb'");
+}
+
+/* A scene from a file, which has no view of its own, with `script` from line 2 on. */
+static void expect_file_scene(const char *script, const char *expected)
+{
+    struct irb_error err = {0};
+    char *path = irb_asprintf("%s/a.glb", folder);
+    REQUIRE_OK(irb_fs_write(path, "x", 1, &err));
+    free(path);
+    char *whole = irb_asprintf("scene: a.glb\n%s\ntrials: [rsm]\n", script);
+    expect(whole, expected);
+    free(whole);
+}
+
+static void test_file_scenes(void **state)
+{
+    (void)state;
+    const char *const light = "light: {position: [0, 1, 0], target: [0, 0, 0], intensity: 1}";
+    const char *const camera = "camera: {position: [0, 1, 0], target: [0, 0, 1]}";
+    expect_file_scene(light, "@:1:1: camera: missing; a scene from a file has none of its own");
+    expect_file_scene(camera, "@:1:1: light: missing; a scene from a file has none of its own");
+    char *text = irb_asprintf("%s\nlight: {position: [0, 1, 0], target: [0, 0, 0]}", camera);
+    expect_file_scene(text,
+                      "@:3:8: light: intensity: missing; a scene from a file has none of its own");
+    free(text);
+    text = irb_asprintf("%s\ncamera: {keys: [{frame: 0, position: [0, 1, 0]}]}", light);
+    expect_file_scene(text,
+                      "@:3:17: camera: target: missing; a scene from a file has none of its own");
+    free(text);
+}
+
+static void test_light(void **state)
+{
+    (void)state;
+    expect_top("light: sun", "@:2:8: light: expected a map of keys, found a single value");
+    expect_top("light:", "@:2:7: light: expected a map of keys, found nothing");
+    expect_top("light: {colour: 3}",
+               "@:2:9: light: unknown key 'colour'; expected one of: type, falloff, "
+               "beam_half_width, interpolation, keys, position, target, intensity, cone, inner");
+    expect_top("light: {type: spt}",
+               "@:2:15: type: expected one of spot, directional; found 'spt'");
+    expect_top("light: {falloff: cubic}",
+               "@:2:18: falloff: expected one of constant, smooth, cosine; found 'cubic'");
+    expect_top("light: {interpolation: bezier}",
+               "@:2:24: interpolation: expected one of linear, catmull-rom; found 'bezier'");
+    expect_top("light: {position: [1, 2]}",
+               "@:2:19: position: expected a list of 3 numbers, found 2");
+    expect_top("light: {position: 1}",
+               "@:2:19: position: expected a list of 3 numbers, found a single value");
+    expect_top("light: {position: [1, 2, x]}", "@:2:26: position: expected a number, found 'x'");
+    expect_top("light: {position: [1, 2, nan]}",
+               "@:2:26: position: expected a number, found 'nan'");
+    expect_top("light: {position: [1, 2, 1e39]}",
+               "@:2:26: position: expected a number, found '1e39'");
+    expect_top("light: {intensity: -1}",
+               "@:2:20: intensity: expected a number in [0, 3.40282e+38], found '-1'");
+    expect_top("light: {intensity: [1, -1, 1]}",
+               "@:2:24: intensity: expected no negative number, found -1");
+    expect_top("light: {cone: 0}", "@:2:15: cone: expected degrees between 0 and 90, found 0");
+    expect_top("light: {cone: 90}", "@:2:15: cone: expected degrees between 0 and 90, found 90");
+    expect_top("light: {cone: 20, inner: 20}",
+               "@:2:26: inner: expected degrees below the cone's 20, found 20");
+    expect_top("light:\n  position: [1, 2, 3]\n  target: [1, 2, 3]",
+               "@:3:3: light key 0: position and target are the same point (1, 2, 3)");
+    expect_top("light: {beam_half_width: -1}",
+               "@:2:26: beam_half_width: expected a number in [0, 3.40282e+38], found '-1'");
+}
+
+static void test_keys(void **state)
+{
+    (void)state;
+    expect_top("light: {keys: []}", "@:2:15: keys: expected a list of 1 to 4096 keys, found none");
+    expect_top("light: {keys: 3}",
+               "@:2:15: keys: expected a list of 1 to 4096 keys, found a single value");
+    expect_top("light: {keys: [3]}", "@:2:16: light: expected a map of keys, found a single value");
+    expect_top("light: {keys: [{cone: 3}]}", "@:2:16: light: frame: missing in a list of keys");
+    expect_top("light: {keys: [{frame: -1}]}",
+               "@:2:24: frame: expected a number in [0, 1e+06], found '-1'");
+    expect_top("light:\n  keys:\n    - {frame: 3}\n    - {frame: 3}",
+               "@:5:15: frame: expected above 3, the key before it, found 3");
+    expect_top("light:\n  keys:\n    - {frame: 3}\n    - {frame: 2}",
+               "@:5:15: frame: expected above 3, the key before it, found 2");
+    expect_top("light: {keys: [{frame: 0, type: spot}]}",
+               "@:2:27: light: unknown key 'type'; expected one of: frame, position, target, "
+               "intensity, cone, inner");
+    expect_top("light: {cone: 3, keys: [{frame: 0}]}",
+               "@:2:15: light: cone: expected inside the items of keys:, found beside it");
+    expect_top("light:\n  keys:\n    - {frame: 0}\n    - {frame: 1, position: [0, 0, 0], target: "
+               "[0, 0, 0]}",
+               "@:5:7: light key 0: position and target are the same point (0, 0, 0)");
+}
+
+static void test_camera(void **state)
+{
+    (void)state;
+    expect_top("camera: {fov: 180}", "@:2:15: fov: expected degrees between 0 and 180, found 180");
+    expect_top("camera: {cone: 3}",
+               "@:2:10: camera: unknown key 'cone'; expected one of: interpolation, near, far, "
+               "keys, position, target, up, fov");
+    expect_top("camera: {position: [0, 0, 0], target: [0, 3, 0]}",
+               "@:2:9: camera key 0: up (0, 1, 0) is parallel to the view; give another up");
+    expect_top("camera: {up: [0, 0, 0]}",
+               "@:2:9: camera key 0: up must be a finite vector and not zero");
+    expect_top("camera: {near: 3, far: 2}", "@:2:9: camera: near must be below far, found 3 and 2");
+}
+
+static void test_trials(void **state)
+{
+    (void)state;
+    expect("scene: cornell\n", "@:1:1: trials: missing; expected a list of methods to run");
+    expect("scene: cornell\ntrials: []\n",
+           "@:2:9: trials: expected a list of methods to run, found an empty one");
+    expect("scene: cornell\ntrials: rsm\n",
+           "@:2:9: trials: expected a list of methods to run, found a single value");
+    expect_trial("rms", "@:3:5: trial 'rms': unknown method 'rms'; did you mean 'rsm'?");
+    expect_trial("rms: {mode: all}", "@:3:5: unknown method 'rms'; did you mean 'rsm'?");
+    expect_trial("rsm:mode=al", "@:3:5: trial 'rsm:mode=al': mode: expected one of all, uniform, "
+                                "importance; found 'al'");
+    expect_trial("rsm: {mod: all}", "@:3:11: rsm: unknown key 'mod'; did you mean 'mode'?");
+    expect_trial("rsm: {mode: al}",
+                 "@:3:17: rsm: mode: expected one of all, uniform, importance; found 'al'");
+    expect_trial("rsm: {clamp: 1e9}",
+                 "@:3:18: rsm: clamp: expected a number in [0, 10] m; found '1e9'");
+    expect_trial("rsm: {samples: [4, 9]}",
+                 "@:3:20: rsm.samples: expected a single value, found a list; write one trial for "
+                 "each value");
+    expect_trial("rsm: {samples: {a: 4}}", "@:3:20: samples: expected a single value, found a map");
+    expect_trial("rsm: {samples: 4, samples: 4}",
+                 "@:3:23: rsm: 'samples' stands here twice, first in line 3");
+    expect_trial("rsm: mode", "@:3:10: rsm: expected a map of keys, found a single value");
+    expect_trial("{rsm: {mode: all}, plain: }",
+                 "@:3:5: trial: expected one key, the method, found 2 keys; indent its parameters "
+                 "below it");
+    expect_trial("[rsm]", "@:3:5: trial: expected a single value, found a list");
+    expect_trial("plain: {samples: 3}",
+                 "@:3:13: plain: unknown key 'samples'; plain has no parameters");
+    expect_trial("rsm:mode=all\n  - rsm: {mode: all, samples: 400}",
+                 "@:4:5: trial 'rsm:mode=all' stands here twice");
+}
+
+/* A sequence of control characters must not break the line, nor the terminal. */
+static void test_one_line(void **state)
+{
+    (void)state;
+    expect_top("frames: \"a\\nb\\e[31m\"",
+               "@:2:9: frames: expected a whole number in [1, 100000]; found 'a b [31m'");
+}
+
+static void expect_override(const char *override, const char *expected)
+{
+    static const char text[] = "scene: cornell\ntrials: [rsm]\n";
+    expect_bytes(text, sizeof text - 1, (const char *const[]){override, NULL}, expected);
+}
+
+static void test_overrides(void **state)
+{
+    (void)state;
+    expect_override("frames", "--set frames: expected key=value");
+    expect_override("frame=3", "--set frame=3: unknown key 'frame'; did you mean 'frames'?");
+    expect_override("frames=x",
+                    "--set frames=x: frames: expected a whole number in [1, 100000]; found 'x'");
+    expect_override("reference.nois=1",
+                    "--set reference.nois=1: reference: unknown key 'nois'; did you mean 'noise'?");
+    expect_override("trials=rsm",
+                    "--set trials=rsm: trials can't be set from the command line; only single "
+                    "values can, such as frames or reference.noise");
+    expect_override("light.cone=3",
+                    "--set light.cone=3: light can't be set from the command line; only single "
+                    "values can, such as frames or reference.noise");
+    expect_override("resolution=3",
+                    "--set resolution=3: resolution: expected WIDTHxHEIGHT, found '3'");
+    expect_override("resolution=3x0",
+                    "--set resolution=3x0: resolution: height: expected a whole number in [1, "
+                    "8192] pixels; found '0'");
+    expect_override("name=", "--set name=: name: expected 1 to 64 letters, digits, '.', '_' or "
+                             "'-', found ''");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_files),        cmocka_unit_test(test_syntax),
+        cmocka_unit_test(test_deep_nesting), cmocka_unit_test(test_top),
+        cmocka_unit_test(test_reference),    cmocka_unit_test(test_scenes),
+        cmocka_unit_test(test_environment),  cmocka_unit_test(test_file_scenes),
+        cmocka_unit_test(test_light),        cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_camera),       cmocka_unit_test(test_trials),
+        cmocka_unit_test(test_one_line),     cmocka_unit_test(test_overrides),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
