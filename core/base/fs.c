@@ -2,7 +2,9 @@
 #include "core/base/fs.h"
 #include "core/base/str.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,6 +73,24 @@ bool irb_fs_read(const char *path, size_t max_size, char **out, size_t *size,
 char *irb_fs_temp_name(const char *path)
 {
     return irb_asprintf("%s.tmp.%ld", path, (long)getpid());
+}
+
+void irb_fs_remove_stale(const char *folder)
+{
+    static const char mark[] = ".tmp.";
+    DIR *dir = opendir(folder);
+    if (!dir)
+        return;
+    for (struct dirent *entry; (entry = readdir(dir));) {
+        const char *at = strstr(entry->d_name, mark);
+        long pid = at ? strtol(at + strlen(mark), NULL, 10) : 0;
+        if (pid <= 0 || kill((pid_t)pid, 0) == 0 || errno != ESRCH)
+            continue;
+        char *path = irb_asprintf("%s/%s", folder, entry->d_name);
+        unlink(path);
+        free(path);
+    }
+    closedir(dir);
 }
 
 bool irb_fs_commit(const char *temp, const char *path, struct irb_error *err)

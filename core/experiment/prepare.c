@@ -36,6 +36,7 @@ bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence,
     const struct irb_config *config = run->config;
     if (!irb_run_need_gl(run, err) || !irb_fs_make_dirs(run->cache, err))
         return false;
+    irb_fs_remove_stale(run->cache);
     irb_run_work(run, IRB_WORK_REFERENCE);
     struct irb_scene_gl *scene = irb_scene_gl_create(run->gl, sequence->scene, err);
     struct irb_gbuffer *gbuffer =

@@ -95,6 +95,7 @@ static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct 
         return false;
     char *folder = irb_run_folder(run->dir, scene->sequence->entry->name, trial->trial->name);
     bool ok = irb_fs_make_dirs(folder, err);
+    irb_fs_remove_stale(folder);
     free(folder);
     trial->last_frame = -1;
     for (int i = 0; i < config->render.frames; i++)

@@ -18,7 +18,7 @@ expect 2 "--threads" "$IRBENCH" run x.yaml --threads zero
 expect 2 "--out: expected DIR, found nothing" "$IRBENCH" run x.yaml --out
 expect 2 "is no method, scene, metric or config" "$IRBENCH" show nonsense
 expect 2 "list: expected methods" "$IRBENCH" list colours
-expect 3 "table: expected one of" "$IRBENCH" table "$work" --format html
+expect 2 "format: expected text, csv, md or json, found 'html'" "$IRBENCH" table "$work" --format html
 
 # --- config ---
 expect 3 "missing.yaml: cannot open" "$IRBENCH" run "$work/missing.yaml"
@@ -33,7 +33,7 @@ scene: cornell
 framse: 4
 trials: [rsm]
 YAML
-expect 3 "unknown.yaml:2:1: unknown key 'framse'; did you mean 'frames'" "$IRBENCH" run "$work/unknown.yaml"
+expect 3 "unknown.yaml:2:1: config: unknown key 'framse'; did you mean 'frames'" "$IRBENCH" run "$work/unknown.yaml"
 config range <<'YAML'
 scene: cornell
 trials:
