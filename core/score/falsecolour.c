@@ -54,7 +54,7 @@ static void lab_to_srgb(const double lab[3], float out[3])
 /* Ends of equal lightness and nearly equal chroma, inside sRGB (source: ours). */
 static void signed_colour(double t, float out[3])
 {
-    static const double neutral[3] = {96, 0, 0}, blue[3] = {38, 12, -56}, red[3] = {38, 56, 36};
+    static const double neutral[3] = {96, 0, 0}, blue[3] = {38, 18, -56}, red[3] = {38, 56, 36};
     const double *end = t < 0 ? blue : red;
     double f = fabs(t), lab[3];
     for (int c = 0; c < 3; c++)
