@@ -32,6 +32,7 @@ struct Parsed : irb_gltf {
     std::vector<irb_gltf_light> light_list;
     std::vector<int> texture_list, root_list;
     std::vector<const char *> required_list, used_list;
+    std::string remark_text;
 
     Parsed() : irb_gltf()
     {
@@ -247,6 +248,7 @@ void publish(Parsed &parsed)
     for (const std::string &name : model.extensionsUsed)
         parsed.used_list.push_back(name.c_str());
     parsed.version = model.asset.version.c_str();
+    parsed.remark = parsed.remark_text.c_str();
     parsed.camera_count = int(model.cameras.size());
     parsed.animation_count = int(model.animations.size());
 #define PUBLISH(field, count, list)                                                                \
@@ -274,6 +276,18 @@ std::string first_line(const std::string &text)
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
+// A required extension is the likeliest cause of a failure (Draco's accessors have no data).
+bool fail_parse(const Parsed &parsed, const std::string &message, irb_error *err)
+{
+    const std::vector<std::string> &required = parsed.model.extensionsRequired;
+
+    irb_fail(err, IRB_E_INPUT, "%s",
+             message.empty() ? "not a valid glTF 2.0 file" : first_line(message).c_str());
+    if (required.empty())
+        return false;
+    return irb_error_prefix(err, "requires the extension %s", required[0].c_str());
+}
+
 bool load(Parsed &parsed, const void *data, size_t size, bool binary, const std::string &folder,
           irb_error *err)
 {
@@ -295,9 +309,8 @@ bool load(Parsed &parsed, const void *data, size_t size, bool binary, const std:
                                         static_cast<const char *>(data),
                                         static_cast<unsigned>(size), folder);
     if (!ok)
-        return irb_fail(err, IRB_E_INPUT, "%s",
-                        message.empty() ? "not a valid glTF 2.0 file"
-                                        : first_line(message).c_str());
+        return fail_parse(parsed, message, err);
+    parsed.remark_text = first_line(message);
     copy_buffers(parsed);
     copy_meshes(parsed);
     copy_materials(parsed);

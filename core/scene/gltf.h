@@ -99,6 +99,7 @@ struct irb_gltf_light {
 
 struct irb_gltf {
     const char *version; /* of the asset: "2.0" */
+    const char *remark;  /* first line of what tinygltf complained about and went on, or "" */
     const struct irb_gltf_buffer *buffers;
     const struct irb_gltf_view *views;
     const struct irb_gltf_accessor *accessors;

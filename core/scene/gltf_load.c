@@ -128,6 +128,8 @@ static void warn_about_dropped(const struct gltf_loader *loader)
 {
     const struct irb_gltf *gltf = loader->gltf;
 
+    if (gltf->remark[0])
+        irb_warn(loader->log, "%s: %s", loader->path, gltf->remark);
     for (int i = 0; i < gltf->light_count; i++)
         irb_warn(loader->log,
                  "%s: light %d '%s' (%s) is dropped, the light comes from the "
