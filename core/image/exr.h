@@ -25,7 +25,7 @@ struct irb_exr_attribute {
 enum irb_exr_compression { IRB_EXR_NONE, IRB_EXR_ZIP };
 
 enum {
-    IRB_EXR_MAX_SIDE = 16384,   /* pixels; larger sizes are refused as damage, writing and reading */
+    IRB_EXR_MAX_SIDE = 16384, /* pixels; larger sizes are refused as damage, writing and reading */
     IRB_EXR_MAX_CHANNELS = 128, /* that one call writes or reads */
 };
 

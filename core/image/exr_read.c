@@ -84,19 +84,20 @@ static bool check_size(struct reader *r, const exr_attr_chlist_t *channels)
     int64_t width = (int64_t)window.max.x - window.min.x + 1;
     int64_t height = (int64_t)window.max.y - window.min.y + 1;
     if (width < 1 || height < 1 || width > IRB_EXR_MAX_SIDE || height > IRB_EXR_MAX_SIDE)
-        return irb_fail(r->err, IRB_E_INPUT, "%s: expected 1 to %d pixels a side, found %lld x %lld",
-                        r->path, IRB_EXR_MAX_SIDE, (long long)width, (long long)height);
+        return irb_fail(r->err, IRB_E_INPUT,
+                        "%s: expected 1 to %d pixels a side, found %lld x %lld", r->path,
+                        IRB_EXR_MAX_SIDE, (long long)width, (long long)height);
     r->width = (int)width;
     r->height = (int)height;
     r->first_line = window.min.y;
     uint64_t unpacked = unpacked_size(r, channels);
     bool plain = compression == EXR_COMPRESSION_NONE;
     bool zip = compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS;
-    if ((plain && unpacked > r->stream.size) ||
-        (zip && unpacked / MAX_ZIP_RATIO > r->stream.size))
+    if ((plain && unpacked > r->stream.size) || (zip && unpacked / MAX_ZIP_RATIO > r->stream.size))
         return irb_fail(r->err, IRB_E_INPUT,
                         "%s: truncated or damaged: %d x %d pixels of %d channels cannot be in %llu "
-                        "bytes", r->path, r->width, r->height, channels->num_channels,
+                        "bytes",
+                        r->path, r->width, r->height, channels->num_channels,
                         (unsigned long long)r->stream.size);
     return true;
 }
@@ -107,8 +108,9 @@ static bool check_channel(struct reader *r, const exr_attr_chlist_entry_t *entry
         return irb_fail(r->err, IRB_E_INPUT, "%s: channel '%s' is subsampled, expected 1 x 1",
                         r->path, entry->name.str);
     if (entry->pixel_type != EXR_PIXEL_HALF && entry->pixel_type != EXR_PIXEL_FLOAT)
-        return irb_fail(r->err, IRB_E_INPUT, "%s: channel '%s' holds integers, expected half or float",
-                        r->path, entry->name.str);
+        return irb_fail(r->err, IRB_E_INPUT,
+                        "%s: channel '%s' holds integers, expected half or float", r->path,
+                        entry->name.str);
     return true;
 }
 
@@ -169,8 +171,8 @@ static bool match_layers(struct reader *r)
 static bool point_at_images(struct reader *r, int row)
 {
     if (r->pipeline.channel_count != r->channel_count)
-        return irb_fail(r->err, IRB_E_INPUT, "%s: %d channels in the header, %d in a chunk", r->path,
-                        r->channel_count, (int)r->pipeline.channel_count);
+        return irb_fail(r->err, IRB_E_INPUT, "%s: %d channels in the header, %d in a chunk",
+                        r->path, r->channel_count, (int)r->pipeline.channel_count);
     for (int i = 0; i < r->channel_count; i++) {
         exr_coding_channel_info_t *info = &r->pipeline.channels[i];
         info->decode_to_ptr = NULL;
@@ -189,13 +191,11 @@ static bool point_at_images(struct reader *r, int row)
 static bool read_chunk(struct reader *r, int row, int lines)
 {
     exr_chunk_info_t chunk;
-    exr_result_t result =
-        exr_read_scanline_chunk_info(r->context, 0, r->first_line + row, &chunk);
+    exr_result_t result = exr_read_scanline_chunk_info(r->context, 0, r->first_line + row, &chunk);
     if (result != EXR_ERR_SUCCESS)
         return failed(r, result);
     int expected = r->height - row < lines ? r->height - row : lines;
-    if (chunk.height != expected || chunk.width != r->width ||
-        chunk.start_y != r->first_line + row)
+    if (chunk.height != expected || chunk.width != r->width || chunk.start_y != r->first_line + row)
         return irb_fail(r->err, IRB_E_INPUT, "%s: damaged: line %d has a chunk of another size",
                         r->path, row);
     result = r->pipeline_ready ? exr_decoding_update(r->context, 0, &chunk, &r->pipeline)
@@ -228,11 +228,8 @@ static bool read_pixels(struct reader *r)
 bool irb_exr_read_layers(const char *path, const struct irb_exr_layer *layers,
                          struct irb_image *images, int layer_count, struct irb_error *err)
 {
-    struct reader r = {.path = path,
-                       .layers = layers,
-                       .images = images,
-                       .layer_count = layer_count,
-                       .err = err};
+    struct reader r = {
+        .path = path, .layers = layers, .images = images, .layer_count = layer_count, .err = err};
     for (int i = 0; i < layer_count; i++)
         images[i] = (struct irb_image){0};
     bool ok = open_file(&r) && check_kind(&r) && match_layers(&r) && read_pixels(&r);

@@ -96,8 +96,7 @@ bool irb_exr_fail(struct irb_error *err, enum irb_error_code code, const char *p
 {
     if (stream->out_of_memory || result == EXR_ERR_OUT_OF_MEMORY)
         code = IRB_E_MEMORY;
-    const char *text =
-        stream->message[0] ? stream->message : exr_get_default_error_message(result);
+    const char *text = stream->message[0] ? stream->message : exr_get_default_error_message(result);
     return irb_fail(err, code, "%s: %s", path, text);
 }
 

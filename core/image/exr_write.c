@@ -142,9 +142,8 @@ static bool write_chunk(struct writer *w, int y)
     exr_chunk_info_t chunk;
     exr_result_t r = exr_write_scanline_chunk_info(w->context, 0, y, &chunk);
     if (r == EXR_ERR_SUCCESS)
-        r = w->pipeline_ready
-                ? exr_encoding_update(w->context, 0, &chunk, &w->pipeline)
-                : exr_encoding_initialize(w->context, 0, &chunk, &w->pipeline);
+        r = w->pipeline_ready ? exr_encoding_update(w->context, 0, &chunk, &w->pipeline)
+                              : exr_encoding_initialize(w->context, 0, &chunk, &w->pipeline);
     if (r != EXR_ERR_SUCCESS)
         return failed(w, r);
     bool first = !w->pipeline_ready;

@@ -9,9 +9,10 @@ bool irb_image_create(struct irb_image *image, int width, int height, int channe
 {
     *image = (struct irb_image){0};
     if (width <= 0 || height <= 0 || channels < 1 || channels > 4)
-        return irb_fail(err, IRB_E_INTERNAL,
-                        "image of %d x %d with %d channels: expected positive sizes, 1 to 4 channels",
-                        width, height, channels);
+        return irb_fail(
+            err, IRB_E_INTERNAL,
+            "image of %d x %d with %d channels: expected positive sizes, 1 to 4 channels", width,
+            height, channels);
     /* 4 channels of float: the product cannot wrap below this. */
     if ((size_t)width > SIZE_MAX / sizeof(float) / 4 / (size_t)height)
         return irb_fail(err, IRB_E_MEMORY, "image of %d x %d: too large", width, height);

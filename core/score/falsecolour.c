@@ -44,7 +44,8 @@ static void lab_to_srgb(const double lab[3], float out[3])
 {
     double y = (lab[0] + 16) / 116;
     /* relative to the white point D65 */
-    double xn = lab_inverse(y + lab[1] / 500), yn = lab_inverse(y), zn = lab_inverse(y - lab[2] / 200);
+    double xn = lab_inverse(y + lab[1] / 500), yn = lab_inverse(y),
+           zn = lab_inverse(y - lab[2] / 200);
     /* inverse of linear sRGB to X/Xn, Y/Yn, Z/Zn (IEC 61966-2-1 primaries, D65) */
     out[0] = (float)srgb_encode(3.080341988 * xn - 1.537398969 * yn - 0.542943019 * zn);
     out[1] = (float)srgb_encode(-0.921178396 * xn + 1.875929984 * yn + 0.045248412 * zn);

@@ -38,12 +38,12 @@ struct flip {
     struct irb_flip_filters filters;
     float largest_difference; /* between display colours: HyAB(green, blue)^qc */
     int threads;
-    float *planes;   /* IMAGES x H_PLANES x height x width */
-    float *scratch;  /* a block for each thread */
+    float *planes;     /* IMAGES x H_PLANES x height x width */
+    float *scratch;    /* a block for each thread */
     size_t per_thread; /* floats */
-    float *out;      /* height x width; keeps the maximum over passes */
-    float *exposure; /* NULL, or the pass that made it, as a fraction */
-    float pass;      /* this one, as a fraction */
+    float *out;        /* height x width; keeps the maximum over passes */
+    float *exposure;   /* NULL, or the pass that made it, as a fraction */
+    float pass;        /* this one, as a fraction */
     bool first_pass;
 };
 
@@ -305,8 +305,8 @@ static bool score_map(const struct flip *f, const uint8_t *mask, struct irb_flip
         }
         irb_quantile_pass_done(median);
     }
-    *scores = (struct irb_flip_scores){sum / (double)count, least, largest,
-                                       irb_quantile_finish(median)};
+    *scores =
+        (struct irb_flip_scores){sum / (double)count, least, largest, irb_quantile_finish(median)};
     if (!count)
         *scores = (struct irb_flip_scores){NAN, NAN, NAN, NAN};
     return true;

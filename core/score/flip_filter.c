@@ -14,7 +14,8 @@ static const struct csf_term csf_red_green = {1, 0.0053};
 static const struct csf_term csf_blue_yellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
 static const double csf_widest_b = 0.04; /* sets one radius for all, 3 standard deviations */
 
-static const double feature_width = 0.082; /* w of section 4.2, degrees: the detectors' full width */
+static const double feature_width =
+    0.082; /* w of section 4.2, degrees: the detectors' full width */
 
 /* Taps that add less than this, relative to the centre, are below a float's resolution. */
 static const double negligible = 1e-10;
@@ -83,8 +84,9 @@ static void feature_kernels(struct irb_flip_filters *f, double ppd)
 
 static int widest(const struct irb_flip_filters *f)
 {
-    const struct irb_flip_kernel *all[] = {&f->achromatic, &f->red_green, &f->blue_yellow[0],
-                                           &f->blue_yellow[1], &f->gauss, &f->edge, &f->point};
+    const struct irb_flip_kernel *all[] = {&f->achromatic,     &f->red_green, &f->blue_yellow[0],
+                                           &f->blue_yellow[1], &f->gauss,     &f->edge,
+                                           &f->point};
     int radius = 0;
     for (int i = 0; i < 7; i++)
         radius = all[i]->radius > radius ? all[i]->radius : radius;

@@ -6,8 +6,8 @@
  * v is the method's image, r the reference: linear radiance in W/(m2 sr), over pixels with
  * geometry and over channels. eps = (0.01 * mean r of the sequence)^2. `indirect` is the indirect
  * radiance and `full` the whole image, both against bounce 1 with exact visibility: what is ranked.
- * `solution` is the whole image against bounces 1 to 16; `claim` the indirect image of a method that
- * models no indirect visibility against bounce 1 without it: diagnostic, never ranked.
+ * `solution` is the whole image against bounces 1 to 16; `claim` the indirect image of a method
+ * that models no indirect visibility against bounce 1 without it: diagnostic, never ranked.
  *
  * Stage times have metrics of their own, stage_<name>_ms, named by the method's table of stages.
  */

@@ -32,14 +32,15 @@ struct irb_error_scores {
 /* eps > 0: (0.01 * mean reference of the sequence)^2, see irb_relmse_eps. */
 struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps);
 
-/* (0.01 * mean)^2, W2/(m4 sr2) for radiance, bounded below by the smallest normal float squared for black references. */
+/* (0.01 * mean)^2, W2/(m4 sr2) for radiance, bounded below by the smallest normal float squared for
+ * black references. */
 double irb_relmse_eps(double mean_reference);
 
 /* Mean over pixels and channels of the finite values under the mask. */
 double irb_masked_mean(const struct irb_image *image, const uint8_t *mask);
 
-/* Squared error map |v-r|^2/(r^2+eps), mean over channels; 1 channel, created. 0 where the mask is 0,
- * NaN where a pixel is not finite. */
+/* Squared error map |v-r|^2/(r^2+eps), mean over channels; 1 channel, created. 0 where the mask is
+ * 0, NaN where a pixel is not finite. */
 bool irb_relmse_map(const struct irb_pair *pair, double eps, struct irb_image *map,
                     struct irb_error *err);
 

@@ -93,11 +93,11 @@ static void round_trip(void **state, int width, int height, enum irb_exr_compres
     for (int i = 0; i < 4; i++)
         image[i] = noise(width, height, channels[i], 17u + (unsigned)i);
     write_layers(path, image, compression);
-    const struct irb_exr_layer wanted[] = {{"depth", "Z", NULL},
-                                           {"zeta", "RGB", NULL},
-                                           {"a_layer_with_a_name_of_more_than_31_characters",
-                                            "XYZ", NULL},
-                                           {"", "RGB", NULL}};
+    const struct irb_exr_layer wanted[] = {
+        {"depth", "Z", NULL},
+        {"zeta", "RGB", NULL},
+        {"a_layer_with_a_name_of_more_than_31_characters", "XYZ", NULL},
+        {"", "RGB", NULL}};
     const int source[4] = {3, 0, 2, 1};
     REQUIRE_OK(irb_exr_read_layers(path, wanted, back, 4, &err));
     for (int i = 0; i < 4; i++) {

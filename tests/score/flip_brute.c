@@ -149,7 +149,8 @@ static void pixel_features(const double *plane, int w, int h, const struct kerne
         colour[c] = at(plane, w, h, c, &k->csf[c], x, y);
     ycxcz_to_hunt(colour, lab);
     /* detectors see (Y + 16)/116; their weights sum to 0 */
-    *edge = hypot(at(plane, w, h, 0, &k->edge[0], x, y), at(plane, w, h, 0, &k->edge[1], x, y)) / 116;
+    *edge =
+        hypot(at(plane, w, h, 0, &k->edge[0], x, y), at(plane, w, h, 0, &k->edge[1], x, y)) / 116;
     *point =
         hypot(at(plane, w, h, 0, &k->point[0], x, y), at(plane, w, h, 0, &k->point[1], x, y)) / 116;
 }
