@@ -48,6 +48,7 @@ enum statement {
     ADD_SCORE,
     HAS_FRAME,
     HAS_SCORES,
+    GET_CLOCK,
     LIST_TRIALS,
     READ_SCORES,
     READ_STAGES,
@@ -69,6 +70,7 @@ static const char *const statement_sql[STATEMENTS] = {
     [ADD_SCORE] = "INSERT INTO score(trial, frame, metric, value) VALUES(?1, ?2, ?3, ?4)",
     [HAS_FRAME] = "SELECT 1 FROM frame WHERE trial = ?1 AND frame = ?2",
     [HAS_SCORES] = "SELECT 1 FROM score WHERE trial = ?1 AND frame = ?2 LIMIT 1",
+    [GET_CLOCK] = "SELECT clock FROM frame WHERE trial = ?1 ORDER BY frame LIMIT 1",
     [LIST_TRIALS] = "SELECT id, scene, method, trial, params, seed FROM trial ORDER BY id",
     [READ_SCORES] = "SELECT frame, metric, value FROM score WHERE trial = ?1"
                     " ORDER BY frame, metric",
@@ -480,6 +482,17 @@ static bool has(struct irb_store *store, enum statement which, int64_t trial, in
     sqlite3_bind_int64(stmt, 1, trial);
     sqlite3_bind_int(stmt, 2, frame);
     return run_once(stmt) == SQLITE_ROW;
+}
+
+char *irb_store_clock(struct irb_store *store, int64_t trial)
+{
+    sqlite3_stmt *stmt = statement(store, GET_CLOCK);
+    if (!stmt)
+        return NULL;
+    sqlite3_bind_int64(stmt, 1, trial);
+    char *clock = sqlite3_step(stmt) == SQLITE_ROW ? column_text(stmt, 0) : NULL;
+    sqlite3_reset(stmt);
+    return clock;
 }
 
 bool irb_store_has_frame(struct irb_store *store, int64_t trial, int frame)

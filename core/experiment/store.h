@@ -47,6 +47,8 @@ bool irb_store_frame(struct irb_store *store, int64_t trial, int frame, const ch
                      const struct irb_store_value *stage_ms, int stage_count,
                      const struct irb_store_value *statistics, int statistic_count,
                      struct irb_error *err);
+/* The clock of the trial's first frame that has one, malloc'ed; NULL where nothing is rendered. */
+char *irb_store_clock(struct irb_store *store, int64_t trial);
 /* Whether the frame has been rendered / scored. */
 bool irb_store_has_frame(struct irb_store *store, int64_t trial, int frame);
 bool irb_store_has_scores(struct irb_store *store, int64_t trial, int frame);

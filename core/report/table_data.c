@@ -73,6 +73,56 @@ static void read_score(void *user, int frame, const char *name, double value)
         row->metrics[metric] = value;
 }
 
+/* Appends a meta value between two texts, where there is one. */
+static void append_meta(struct irb_str *out, struct irb_store *store, const char *name,
+                        const char *before, const char *after)
+{
+    char *value = irb_store_get_meta(store, name);
+    if (value && *value)
+        irb_str_printf(out, "%s%s%s", before, value, after);
+    free(value);
+}
+
+/* A number that scoring chose for a scene, under meta scene/SCENE/name. */
+static void append_choice(struct irb_str *out, struct irb_store *store, const char *scene,
+                          const char *name, const char *before)
+{
+    char *key = irb_asprintf("scene/%s/%s", scene, name);
+    char *value = irb_store_get_meta(store, key);
+    if (value)
+        irb_str_printf(out, "%s%.3g", before, strtod(value, NULL));
+    free(value);
+    free(key);
+}
+
+static char *scene_choices(struct irb_store *store, const char *scene)
+{
+    struct irb_str out = {0};
+    append_choice(&out, store, scene, "relmse_eps_indirect", "relMSE eps ");
+    append_choice(&out, store, scene, "flip_indirect_start", ", FLIP exposures ");
+    append_choice(&out, store, scene, "flip_indirect_stop", " to ");
+    append_choice(&out, store, scene, "flip_indirect_exposures", ", ");
+    return out.text ? out.text : irb_strdup("");
+}
+
+/* "times: finish+clock on llvmpipe (...), CPU, threads 2; irbench 0.1.0 (commit)" */
+static char *read_provenance(const struct irb_table_data *data, struct irb_store *store)
+{
+    struct irb_str out = {0};
+    char *clock = NULL;
+    for (int i = 0; i < data->row_count && !clock; i++)
+        clock = irb_store_clock(store, data->rows[i].trial->id);
+    if (clock)
+        irb_str_printf(&out, "times: %s", clock);
+    free(clock);
+    append_meta(&out, store, "gl_renderer", " on ", "");
+    append_meta(&out, store, "cpu", ", ", "");
+    append_meta(&out, store, "threads", ", threads ", "");
+    append_meta(&out, store, "irbench_version", "; irbench ", "");
+    append_meta(&out, store, "git_commit", " (", ")");
+    return out.text ? out.text : irb_strdup("");
+}
+
 static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
                      struct irb_store *store, struct irb_error *err)
 {
@@ -96,6 +146,7 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     }
     free(timing.stages);
     free(timing.frames.values);
+    row->choices = scene_choices(store, row->trial->scene);
     return ok;
 }
 
@@ -139,17 +190,22 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store,
     bool ok = true;
     for (int i = 0; i < data->row_count && ok; i++)
         ok = read_row(data, &data->rows[i], store, err);
-    if (ok)
-        pad_stages(data);
-    else
+    if (!ok) {
         irb_table_data_destroy(data);
-    return ok;
+        return false;
+    }
+    pad_stages(data);
+    data->provenance = read_provenance(data, store);
+    return true;
 }
 
 void irb_table_data_destroy(struct irb_table_data *data)
 {
-    for (int i = 0; i < data->row_count; i++)
+    for (int i = 0; i < data->row_count; i++) {
         free(data->rows[i].stage_ms);
+        free(data->rows[i].choices);
+    }
+    free(data->provenance);
     for (int i = 0; i < data->stage_count; i++)
         free(data->stages[i]);
     free(data->stages);

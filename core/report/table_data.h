@@ -13,6 +13,7 @@ struct irb_table_row {
     double metrics[IRB_METRIC_COUNT];        /* of the sequence; NaN where there is none */
     double *stage_ms; /* medians, one for each stage of the data, NaN where it has none; owned */
     int stage_count;
+    char *choices; /* how the scene was scored: eps, exposures; "" where unknown; owned */
 };
 
 struct irb_table_data {
@@ -21,6 +22,7 @@ struct irb_table_data {
     int row_count;
     char **stages; /* names of all trials' stages, in order of appearance */
     int stage_count;
+    char *provenance; /* what was measured with what, in one line; "" where unknown; owned */
 };
 
 bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store,

@@ -139,7 +139,9 @@ static void print_reference(const struct group *group, struct irb_str *out)
     char noise[32], flicker[32];
     print_number(noise, largest(group, M(reference_noise)), 3);
     print_number(flicker, largest(group, M(reference_flicker)), 3);
-    irb_str_printf(out, "reference: noise %s (relMSE), flicker floor %s", noise, flicker);
+    const char *choices = group->rows->choices;
+    irb_str_printf(out, "reference: noise %s (relMSE), flicker floor %s%s%s", noise, flicker,
+                   *choices ? "; " : "", choices);
 }
 
 /* ---- layout: every cell as text first, then as wide as the widest of its column ---- */
@@ -257,7 +259,7 @@ void irb_table_text(const struct irb_table_data *data, bool colour, struct irb_s
         first += group.count;
     }
     if (data->row_count)
-        irb_str_printf(out, "* %s", legend);
+        irb_str_printf(out, "* %s%s%s", legend, data->provenance, *data->provenance ? "\n" : "");
 }
 
 /* ---- Markdown ---- */
@@ -307,5 +309,6 @@ void irb_table_markdown(const struct irb_table_data *data, struct irb_str *out)
         first += group.count;
     }
     if (data->row_count)
-        irb_str_printf(out, "Bold: %s", legend);
+        irb_str_printf(out, "Bold: %s%s%s", legend, data->provenance,
+                       *data->provenance ? "\n" : "");
 }

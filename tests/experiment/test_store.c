@@ -117,6 +117,11 @@ static void test_round_trip(void **state)
     free(cpu);
     assert_null(irb_store_get_meta(store, "gpu"));
 
+    char *clock = irb_store_clock(store, trial);
+    assert_string_equal(clock, "finish+clock");
+    free(clock);
+    assert_null(irb_store_clock(store, trial + 1));
+
     struct irb_store_trial_list list;
     REQUIRE_OK(irb_store_trials(store, &list, &err));
     assert_int_equal(list.count, 1);

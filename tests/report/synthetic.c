@@ -56,6 +56,8 @@ struct irb_store *synthetic_store(const char *folder, struct irb_error *err)
     int64_t plain = irb_store_trial(store, "cornell", "plain", "plain", "{}", 1, err);
     const struct irb_store_value whole[] = {
         {"indirect_relmse", 0.01}, {"indirect_rmse", INFINITY}, {"reference_noise", 0.001}};
+    irb_store_set_meta(store, "gl_renderer", "a device", err);
+    irb_store_set_meta(store, "scene/cornell/relmse_eps_indirect", "0.00012345", err);
     if (rsm && odd && all && plain && fill_rsm(store, rsm, err) && fill_all(store, all, err) &&
         irb_store_scores(store, plain, -1, whole, COUNT(whole), err))
         return store;

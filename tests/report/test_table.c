@@ -203,7 +203,8 @@ static void test_text(void **state)
 {
     char *text = write_table(*state, IRB_TABLE_TEXT, false);
     assert_null(strchr(text, '\033'));
-    expect_words(text, "cornell   reference: noise 0.00100 (relMSE), flicker floor 0.00200\n");
+    expect_words(text, "cornell   reference: noise 0.00100 (relMSE), flicker floor 0.00200; "
+                       "relMSE eps 0.000123\n");
     expect_words(text, " W/(m2 sr)");
     expect_words(text, " ms");
     /* 0.0005 is below the noise: the best that is ranked is plain's 0.01 */
@@ -226,6 +227,7 @@ static void test_text(void **state)
     expect_words(text, "lost");
     assert_null(strstr(text, "non-finite"));
     assert_null(strstr(text, "solution"));
+    expect_words(text, "times: finish+clock on a device\n");
     expect_words(text, "* best of its column and scene; ~ not above the reference's own noise");
     free(text);
 }
