@@ -42,8 +42,8 @@ void irb_vpl_set_destroy(struct irb_vpl_set *set);
 
 /* Draws `samples` candidates, at most `capacity` (ignored by ALL, which takes every texel), and
  * keeps those with flux, in order; N counts the dropped ones too, so that the estimate stays
- * unbiased. The Halton sequence starts at its point `first`, so that a caller may use the same
- * points each frame or go on. An RSM without flux gives 0 lights. Same input, same bits. */
+ * unbiased. The Halton sequence (without its point 0) starts at `first`, so that a caller may use
+ * the same points each frame or go on. An RSM without flux gives 0 lights. Same input, same bits. */
 bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int samples,
                         unsigned first, struct irb_error *err);
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Halton points in bases 2 and 3 (Halton 1964): point i of the sequence, in [0,1)^2.
+ * Halton points in bases 2 and 3 (Halton 1964): point i of the sequence, in [0,1)^2. The sequence
+ * is taken without its point (0,0), which would put a light on the first texel of any flux at all,
+ * however little that is.
  */
 const float BELOW_ONE = 0.99999994; /* largest float below 1 */
 
@@ -24,5 +26,5 @@ float radical_inverse_3(uint i)
 
 vec2 halton(uint i)
 {
-    return vec2(radical_inverse_2(i), radical_inverse_3(i));
+    return vec2(radical_inverse_2(i + 1u), radical_inverse_3(i + 1u));
 }

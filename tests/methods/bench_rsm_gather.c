@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Speed of rsm's gather against a bare loop of the same arithmetic, in one process, interleaved:
+ * million pixel-samples a second, median of REPEATS. The bare loop is one full-screen pass over
+ * lights in one uniform block, one pixel an invocation, no sampling, no accumulation over blocks.
+ * The method runs as it does in a frame; its gather stage counts.
+ *
+ *     bench_rsm_gather [osmesa|egl|auto]
+ *
+ * Exit status 1 where a mode is below 60 % of the bare loop (--check); 77 without a backend.
+ */
+#include "core/base/clock.h"
+#include "core/frame/gbuffer.h"
+#include "core/frame/rsm.h"
+#include "core/scene/builtin.h"
+#include "methods/method.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+extern const struct irb_method irb_method_rsm;
+static const struct irb_method *const rsm = &irb_method_rsm;
+
+/* Mode `all` takes every lit texel: 36^2 pi/4 = 1018 of them, so that all modes use one block. */
+enum { WIDTH = 512, HEIGHT = 384, SAMPLES = 1024, RESOLUTION = 36, REPEATS = 11, MODES = 3 };
+enum { STAGE_GATHER = 1, BLOCK_LIGHTS = 1024, LIGHT_FLOATS = 12, BARE = MODES };
+
+static const double least_share = 0.6; /* of the bare loop */
+
+struct bench {
+    struct irb_gl *gl;
+    struct irb_scene *scene;
+    struct irb_scene_gl *scene_gl;
+    struct irb_gbuffer *gbuffer;
+    struct irb_rsm *rsm;
+    struct irb_light light;
+    struct irb_camera camera;
+    struct irb_timer *timer;
+    void *state[MODES], *params[MODES];
+    double vpls[MODES];
+    struct irb_program *bare;
+    struct irb_buffer *lights;
+    struct irb_texture *target;
+    struct irb_framebuffer *framebuffer;
+};
+
+static void must(bool ok, const struct irb_error *err)
+{
+    if (ok)
+        return;
+    fprintf(stderr, "bench_rsm_gather: %s\n", err->message);
+    exit(irb_error_status(err->code));
+}
+
+static void make_frame(struct bench *b)
+{
+    struct irb_error err = {0};
+    struct irb_animation animation;
+    must((b->scene = irb_scene_load("cornell", NULL, &err)), &err);
+    irb_builtin_find("cornell")->view(&animation);
+    irb_animation_light(&animation, b->scene, 0, &b->light);
+    irb_animation_camera(&animation, b->scene, 0, &b->camera);
+    irb_animation_destroy(&animation);
+    b->camera.position[2] = 0.05f; /* inside, so that every pixel shows geometry */
+    b->camera.vertical_fov = 1.2f;
+    must((b->scene_gl = irb_scene_gl_create(b->gl, b->scene, &err)), &err);
+    must((b->gbuffer = irb_gbuffer_create(b->gl, WIDTH, HEIGHT, &err)), &err);
+    must((b->rsm = irb_rsm_create(b->gl, RESOLUTION, &err)), &err);
+    must(irb_gbuffer_render(b->gbuffer, b->scene_gl, &b->camera, &err), &err);
+    must(irb_rsm_render(b->rsm, b->scene_gl, &b->light, &err), &err);
+    must((b->timer = irb_timer_create(b->gl, &err)), &err);
+}
+
+static void make_methods(struct bench *b)
+{
+    struct irb_error err = {0};
+    static const char *const modes[MODES] = {"all", "uniform", "importance"};
+    for (int i = 0; i < MODES; i++) {
+        b->params[i] = calloc(1, rsm->params_size);
+        irb_options_default(rsm->params, b->params[i]);
+        must(irb_option_set(rsm->params, b->params[i], "mode", modes[i], &err), &err);
+        must(irb_option_set(rsm->params, b->params[i], "samples", "1024", &err), &err);
+        must((b->state[i] = rsm->create(b->gl, b->scene_gl, WIDTH, HEIGHT, b->params[i], &err)),
+             &err);
+    }
+}
+
+static void make_bare_loop(struct bench *b)
+{
+    struct irb_error err = {0};
+    static float lights[BLOCK_LIGHTS * LIGHT_FLOATS];
+    for (int i = 0; i < BLOCK_LIGHTS; i++) {
+        float *light = lights + i * LIGHT_FLOATS;
+        light[0] = 0.5f * (float)(i % 32) / 32;
+        light[2] = 0.5f * (float)i / BLOCK_LIGHTS;
+        light[5] = 1;
+        light[8] = light[9] = light[10] = 1e-3f;
+    }
+    must((b->lights = irb_buffer_create(b->gl, "bare: lights", sizeof lights, lights, &err)), &err);
+    const struct irb_program_desc program = {
+        .name = "bare loop",
+        .vertex = "gl/fullscreen.vert",
+        .fragment = "methods/rsm/bench_bare_loop.frag",
+    };
+    must((b->bare = irb_program_create(b->gl, &program, &err)), &err);
+    const struct irb_texture_desc target = {
+        .name = "bare: target", .format = GL_RGBA32F, .width = WIDTH, .height = HEIGHT};
+    must((b->target = irb_texture_create(b->gl, &target, &err)), &err);
+    must((b->framebuffer = irb_framebuffer_create(b->gl, "bare", &b->target, 1, NULL, &err)), &err);
+}
+
+static double time_bare_loop(struct bench *b)
+{
+    struct irb_error err = {0};
+    double ms[IRB_MAX_STAGES];
+    irb_timer_begin(b->timer, STAGE_GATHER);
+    irb_framebuffer_bind(b->framebuffer);
+    irb_program_use(b->bare);
+    b->gl->api.BindTextureUnit(0, b->gbuffer->position->id);
+    b->gl->api.BindTextureUnit(1, b->gbuffer->normal->id);
+    irb_program_int(b->bare, "gbuffer_position", 0);
+    irb_program_int(b->bare, "gbuffer_normal", 1);
+    b->gl->api.BindBufferBase(GL_UNIFORM_BUFFER, 0, b->lights->id);
+    irb_gl_draw_fullscreen(b->gl);
+    irb_timer_end(b->timer);
+    irb_timer_collect(b->timer, ms);
+    must(irb_gl_check(b->gl, "bare loop", &err), &err);
+    return ms[STAGE_GATHER];
+}
+
+static double time_method(struct bench *b, int mode)
+{
+    struct irb_error err = {0};
+    double ms[IRB_MAX_STAGES];
+    struct irb_frame_output out;
+    const struct irb_frame_inputs inputs = {.scene = b->scene_gl,
+                                            .light = &b->light,
+                                            .camera = &b->camera,
+                                            .gbuffer = b->gbuffer,
+                                            .rsm = b->rsm,
+                                            .params = b->params[mode],
+                                            .timer = b->timer};
+    must(rsm->render_frame(b->state[mode], &inputs, &out, &err), &err);
+    irb_timer_collect(b->timer, ms);
+    b->vpls[mode] = out.statistics[0].value;
+    return ms[STAGE_GATHER];
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Medians in million pixel-samples a second; false where one is below the share that is asked. */
+static bool print_result(const struct bench *b, double ms[MODES + 1][REPEATS])
+{
+    static const char *const names[] = {"all", "uniform", "importance"};
+    double rate[MODES + 1];
+    bool fast = true;
+    for (int i = 0; i <= MODES; i++) {
+        double lights = i == BARE ? BLOCK_LIGHTS : b->vpls[i];
+        qsort(ms[i], REPEATS, sizeof(double), compare);
+        rate[i] = WIDTH * HEIGHT * lights / (ms[i][REPEATS / 2] * 1e3);
+    }
+    printf("%s, clock %s\n", b->gl->renderer, irb_timer_clock(b->timer));
+    printf("%-12s %7s %10s %8s\n", "gather", "lights", "M/s", "of bare");
+    printf("%-12s %7d %10.0f %8s\n", "bare loop", BLOCK_LIGHTS, rate[BARE], "");
+    for (int i = 0; i < MODES; i++) {
+        printf("%-12s %7.0f %10.0f %7.0f%%\n", names[i], b->vpls[i], rate[i],
+               100 * rate[i] / rate[BARE]);
+        fast = fast && rate[i] >= least_share * rate[BARE];
+    }
+    return fast;
+}
+
+static void destroy(struct bench *b)
+{
+    for (int i = 0; i < MODES; i++) {
+        rsm->destroy(b->state[i]);
+        free(b->params[i]);
+    }
+    irb_program_destroy(b->bare);
+    irb_buffer_destroy(b->lights);
+    irb_framebuffer_destroy(b->framebuffer);
+    irb_texture_destroy(b->target);
+    irb_timer_destroy(b->timer);
+    irb_rsm_destroy(b->rsm);
+    irb_gbuffer_destroy(b->gbuffer);
+    irb_scene_gl_destroy(b->scene_gl);
+    irb_scene_destroy(b->scene);
+    irb_gl_destroy(b->gl);
+}
+
+static enum irb_backend backend_of(int argc, char **argv)
+{
+    for (int i = 0; argc > 1 && irb_backend_names[i]; i++)
+        if (!strcmp(argv[1], irb_backend_names[i]))
+            return (enum irb_backend)i;
+    return IRB_BACKEND_AUTO;
+}
+
+int main(int argc, char **argv)
+{
+    struct irb_error err = {0};
+    struct bench b = {0};
+    double ms[MODES + 1][REPEATS];
+    struct irb_gl_desc desc = {.backend = backend_of(argc, argv)};
+    b.gl = irb_gl_create(&desc, &err);
+    if (!b.gl) {
+        printf("skipped: %s\n", err.message);
+        return 77;
+    }
+    make_frame(&b);
+    make_methods(&b);
+    make_bare_loop(&b);
+    for (int repeat = -1; repeat < REPEATS; repeat++) /* the first round compiles */
+        for (int i = 0; i <= MODES; i++) {
+            double t = i == BARE ? time_bare_loop(&b) : time_method(&b, i);
+            if (repeat >= 0)
+                ms[i][repeat] = t;
+        }
+    bool fast = print_result(&b, ms);
+    destroy(&b);
+    return fast || argc < 3 || strcmp(argv[2], "--check") ? 0 : 1;
+}
