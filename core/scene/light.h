@@ -28,7 +28,9 @@ struct irb_light {
     float half_width; /* directional: half side of the square beam, metres */
 };
 
-/* Right and up of the light's image; the same in the RSM and the reference. */
+/* Right and up of the light's image; the same in the RSM and the reference. right x up =
+ * -direction. Straight down gives right = +x, up = -z; every other direction takes that frame along
+ * by the shortest rotation, so that it is continuous but at straight up. */
 void irb_light_basis(const struct irb_light *light, float right[3], float up[3]);
 
 /* Falloff at angle theta from the axis; 0 outside the cone. */

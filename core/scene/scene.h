@@ -60,7 +60,7 @@ void irb_scene_destroy(struct irb_scene *scene); /* frees the scene too; NULL is
 /* Loads a built-in by its name, or a .gltf/.glb file by its path. IRB_E_INPUT names what is wrong:
  * a missing or truncated file, an index out of range, a non-finite vertex (mesh and number), no
  * triangles, a texture that is missing. Warnings (dropped lights, degenerate triangles) go to log.
- */
+ * glTF materials become Lambert: k_d = base colour, k_s = 0; see core/scene/gltf_load.h. */
 struct irb_scene *irb_scene_load(const char *name_or_path, struct irb_log *log,
                                  struct irb_error *err);
 
