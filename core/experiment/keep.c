@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/experiment/keep.h"
 #include "core/base/fs.h"
+#include "core/base/parallel.h"
 #include "core/experiment/paths.h"
 #include "core/score/sheet.h"
 #include "core/image/exr.h"
@@ -11,12 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static bool is_kept(const struct irb_run *run, int frame, int frames, int worst)
-{
-    return run->options->keep_all || frame == 0 || frame == frames / 2 || frame == worst ||
-           frame == frames - 1;
-}
 
 /* Error maps of one kept frame. */
 struct maps {
@@ -31,18 +26,18 @@ static void destroy_maps(struct maps *maps)
 }
 
 static bool flip_map(const struct irb_pair *pair, bool lit,
-                     const struct irb_flip_exposures *exposures, int threads,
-                     struct irb_image *map, struct irb_error *err)
+                     const struct irb_flip_exposures *exposures, struct irb_image *map,
+                     struct irb_error *err)
 {
     struct irb_flip_scores scores;
     if (!lit)
         return irb_image_create(map, pair->test->width, pair->test->height, 1, err);
-    return irb_flip_hdr(pair->test, pair->reference, pair->mask, exposures, IRB_FLIP_PPD, threads,
-                        map, &scores, err);
+    return irb_flip_hdr(pair->test, pair->reference, pair->mask, exposures, IRB_FLIP_PPD, 1, map, &scores, err);
 }
 
-static bool make_maps(struct maps *maps, const struct irb_run *run,
-                      const struct irb_scored_frame *frame, const struct irb_target *target,
+/* On one thread: the trials are what runs in parallel. */
+static bool make_maps(struct maps *maps, const struct irb_scored_frame *frame,
+                      const struct irb_target *target,
                       const struct irb_target_constants *constants, struct irb_error *err)
 {
     struct irb_pair indirect = {&frame->indirect, &target->indirect, target->mask};
@@ -50,9 +45,8 @@ static bool make_maps(struct maps *maps, const struct irb_run *run,
     *maps = (struct maps){0};
     return irb_relmse_map(&indirect, constants->eps_indirect, &maps->relmse, err) &&
            flip_map(&indirect, constants->indirect_lit, &constants->flip_indirect,
-                    run->options->threads, &maps->flip_indirect, err) &&
-           flip_map(&full, constants->full_lit, &constants->flip_full, run->options->threads,
-                    &maps->flip_full, err);
+                    &maps->flip_indirect, err) &&
+           flip_map(&full, constants->full_lit, &constants->flip_full, &maps->flip_full, err);
 }
 
 static bool write_exr(const char *path, const struct irb_run *run,
@@ -101,60 +95,106 @@ static bool write_sheet(const char *path, const struct irb_scored_frame *frame,
     return ok;
 }
 
-static bool keep_frame(struct irb_run *run, const struct irb_sequence *sequence,
-                       const struct irb_scored_trial *trial,
-                       const struct irb_target_constants *constants, int number,
-                       struct irb_error *err)
-{
+/* One frame that is being kept: its target is loaded once for all trials. */
+struct keep_frame {
+    const struct irb_keep *keep;
     struct irb_target target;
+    int frame;
+    const int *wanted;      /* indices of the trials that keep it */
+    struct irb_error *errs; /* one a trial */
+};
+
+static bool keep_one(void *user, int index, int thread)
+{
+    (void)thread;
+    struct keep_frame *kept = user;
+    const struct irb_keep *keep = kept->keep;
+    const struct irb_scored_trial *trial = &keep->trials[kept->wanted[index]];
+    struct irb_error *err = &kept->errs[kept->wanted[index]];
     struct irb_scored_frame frame = {0};
     struct maps maps = {0};
-    if (!irb_target_load(&target, run, sequence, number, constants, err))
-        return false;
-    char *exr = irb_run_file(run->dir, trial->scene, trial->trial->name, "image", number, "exr");
-    char *png = irb_run_file(run->dir, trial->scene, trial->trial->name, "image", number, "png");
-    bool ok = irb_scored_frame_load(&frame, run, trial, number, &target, err) &&
-              make_maps(&maps, run, &frame, &target, constants, err) &&
-              write_exr(exr, run, trial, &frame, &target, &maps, err);
+    const char *dir = keep->run->dir, *name = trial->trial->name;
+    char *exr = irb_run_file(dir, trial->scene, name, "image", kept->frame, "exr");
+    char *png = irb_run_file(dir, trial->scene, name, "image", kept->frame, "png");
+    bool ok =
+        irb_scored_frame_load(&frame, keep->run, trial, kept->frame, &kept->target, err) &&
+        make_maps(&maps, &frame, &kept->target, keep->constants, err) &&
+        write_exr(exr, keep->run, trial, &frame, &kept->target, &maps, err);
     if (ok && IRB_HAVE_IMAGES)
-        ok = write_sheet(png, &frame, &target, &maps, constants, err);
+        ok = write_sheet(png, &frame, &kept->target, &maps, keep->constants, err);
     free(png);
     free(exr);
     destroy_maps(&maps);
     irb_scored_frame_destroy(&frame);
-    irb_target_destroy(&target);
     return ok;
 }
 
-bool irb_keep_trial(struct irb_run *run, const struct irb_sequence *sequence,
-                    const struct irb_scored_trial *trial,
-                    const struct irb_target_constants *constants, int worst,
-                    struct irb_error *err)
+static char *frame_path(const struct irb_keep *keep, int trial, int frame)
 {
-    for (int i = 0; i < sequence->frame_count; i++) {
-        char *path = irb_run_file(run->dir, trial->scene, trial->trial->name, "frame", i, "exr");
-        bool ok = true;
-        if (irb_fs_exists(path)) { /* else an earlier run has kept or removed it */
-            if (is_kept(run, i, sequence->frame_count, worst))
-                ok = keep_frame(run, sequence, trial, constants, i, err);
-            if (ok)
-                unlink(path);
-        }
-        free(path);
-        if (!ok)
-            return false;
-    }
-    return true;
+    return irb_run_file(keep->run->dir, keep->sequence->entry->name,
+                        keep->trials[trial].trial->name, "frame", frame, "exr");
 }
 
-bool irb_keep_shared(struct irb_run *run, const struct irb_sequence *sequence,
-                     struct irb_error *err)
+static bool is_kept(const struct irb_keep *keep, int trial, int frame)
 {
-    (void)err;
-    for (int i = 0; i < sequence->frame_count; i++) {
-        char *path = irb_run_file(run->dir, sequence->entry->name, NULL, "direct", i, "exr");
+    int frames = keep->sequence->frame_count;
+    if (!keep->run->options->keep_all && frame != 0 && frame != frames / 2 &&
+        frame != keep->worst[trial] && frame != frames - 1)
+        return false;
+    char *path = frame_path(keep, trial, frame);
+    bool there = irb_fs_exists(path); /* else an earlier run has kept or removed it */
+    free(path);
+    return there;
+}
+
+static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted,
+                       struct irb_error *errs, struct irb_error *err)
+{
+    struct keep_frame kept = {.keep = keep, .frame = frame, .wanted = wanted, .errs = errs};
+    int count = 0;
+    for (int t = 0; t < keep->trial_count; t++)
+        if (is_kept(keep, t, frame))
+            wanted[count++] = t;
+    if (!count)
+        return true;
+    if (!irb_target_load(&kept.target, keep->run, keep->sequence, frame, keep->constants, err))
+        return false;
+    bool ok = irb_parallel_for(count, keep->run->options->threads, keep_one, &kept);
+    for (int t = 0; !ok && t < keep->trial_count; t++)
+        if (errs[t].code != IRB_E_OK && err)
+            *err = errs[t];
+    irb_target_destroy(&kept.target);
+    return ok;
+}
+
+static void remove_frame(const struct irb_keep *keep, int frame)
+{
+    for (int t = 0; t < keep->trial_count; t++) {
+        char *path = frame_path(keep, t, frame);
         unlink(path);
         free(path);
     }
-    return true;
+}
+
+bool irb_keep_images(const struct irb_keep *keep, struct irb_error *err)
+{
+    int *wanted = calloc((size_t)keep->trial_count, sizeof *wanted);
+    struct irb_error *errs = calloc((size_t)keep->trial_count, sizeof *errs);
+    bool ok = wanted && errs;
+    if (!ok)
+        irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", keep->trial_count);
+    for (int i = 0; ok && i < keep->sequence->frame_count; i++) {
+        ok = !irb_run_stopped(keep->run, err) && keep_frame(keep, i, wanted, errs, err);
+        if (ok)
+            remove_frame(keep, i);
+    }
+    for (int i = 0; ok && i < keep->sequence->frame_count; i++) {
+        char *path = irb_run_file(keep->run->dir, keep->sequence->entry->name, NULL, "direct", i,
+                                  "exr");
+        unlink(path);
+        free(path);
+    }
+    free(wanted);
+    free(errs);
+    return ok;
 }

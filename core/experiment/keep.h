@@ -9,14 +9,17 @@
 
 #include "core/experiment/score_frame.h"
 
-/* Writes the kept frames of a trial and removes the frame files that are not kept. */
-bool irb_keep_trial(struct irb_run *run, const struct irb_sequence *sequence,
-                    const struct irb_scored_trial *trial,
-                    const struct irb_target_constants *constants, int worst,
-                    struct irb_error *err);
+struct irb_keep {
+    struct irb_run *run;
+    const struct irb_sequence *sequence;
+    const struct irb_target_constants *constants;
+    const struct irb_scored_trial *trials; /* trial_count of them */
+    const int *worst;                      /* each trial's worst frame */
+    int trial_count;
+};
 
-/* Removes what the trials shared and nobody needs any more. */
-bool irb_keep_shared(struct irb_run *run, const struct irb_sequence *sequence,
-                     struct irb_error *err);
+/* Writes the kept frames of all trials, and removes the frame files and direct light that nobody
+ * needs any more. What an earlier run has kept or removed stays as it is. */
+bool irb_keep_images(const struct irb_keep *keep, struct irb_error *err);
 
 #endif

@@ -178,20 +178,34 @@ static void close_scoring(struct scoring *s)
     irb_target_destroy(&s->previous_target);
 }
 
-/* Sequence figures, then the images of the frames that are kept; the others go. */
-static bool finish_trials(struct scoring *s, struct irb_error *err)
+/* The figures of the sequence. */
+static bool store_sequences(struct scoring *s, struct irb_error *err)
 {
-    for (int t = 0; t < s->trial_count; t++) {
-        struct trial_scores *trial = &s->trials[t];
-        if (irb_run_stopped(s->run, err) ||
-            !irb_sequence_scores_store(trial->frames, s->sequence->frame_count, &s->constants,
-                                       s->run->store, trial->trial.id, err))
+    for (int t = 0; t < s->trial_count; t++)
+        if (!irb_sequence_scores_store(s->trials[t].frames, s->sequence->frame_count,
+                                       &s->constants, s->run->store, s->trials[t].trial.id, err))
             return false;
-        int worst = irb_worst_frame(trial->frames, s->sequence->frame_count);
-        if (!irb_keep_trial(s->run, s->sequence, &trial->trial, &s->constants, worst, err))
-            return false;
+    return true;
+}
+
+static bool keep_images(struct scoring *s, struct irb_error *err)
+{
+    size_t count = s->trial_count > 0 ? (size_t)s->trial_count : 0;
+    struct irb_scored_trial *trials = calloc(count, sizeof *trials);
+    int *worst = calloc(count, sizeof *worst);
+    bool ok = trials && worst;
+    if (!ok)
+        irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", s->trial_count);
+    for (int t = 0; ok && t < s->trial_count; t++) {
+        trials[t] = s->trials[t].trial;
+        worst[t] = irb_worst_frame(s->trials[t].frames, s->sequence->frame_count);
     }
-    return irb_keep_shared(s->run, s->sequence, err);
+    struct irb_keep keep = {.run = s->run, .sequence = s->sequence, .constants = &s->constants,
+                            .trials = trials, .worst = worst, .trial_count = s->trial_count};
+    ok = ok && irb_keep_images(&keep, err);
+    free(trials);
+    free(worst);
+    return ok;
 }
 
 /* Whether a frame is left to score, or a scored one to be kept or removed. */
@@ -218,9 +232,8 @@ bool irb_score_sequence(struct irb_run *run, struct irb_sequence *sequence, stru
     if (ok && anything_to_do(&s)) {
         irb_info(run->log, "%s: scoring %d trials", sequence->entry->name, s.trial_count);
         ok = irb_target_constants_of(&s.constants, run, sequence, err) &&
-             irb_target_constants_store(&s.constants, run, sequence, err) && score_frames(&s, err);
-        irb_run_work(run, IRB_WORK_STORE);
-        ok = ok && finish_trials(&s, err);
+             irb_target_constants_store(&s.constants, run, sequence, err) &&
+             score_frames(&s, err) && store_sequences(&s, err) && keep_images(&s, err);
     }
     close_scoring(&s);
     return ok;
