@@ -11,8 +11,6 @@
  * of the path, where the density of the path up to it cancels.
  */
 #include "core/reference/estimator.h"
-#include "core/reference/sample_map.h"
-#include "core/sampling/sobol.h"
 
 #include <float.h>
 
@@ -41,7 +39,7 @@ struct light_vertex {
 
 /* Sums of one batch. In double, as a batch may have a million samples. */
 struct batch_sums {
-    double bounce1[3], bounce2[3], rest[3], unoccluded[3], tail[2];
+    double bounce1[3], bounce2[3], rest[3], unoccluded[3];
 };
 
 struct sample_sets {
@@ -53,59 +51,53 @@ static inline void add(double sum[3], struct vec3 value)
 {
     /* A value that is not finite comes from intensities near the end of float's range only; one
      * such sample must not take the pixel with it. */
-    if (!(v3_max_abs(value) <= FLT_MAX))
+    if (!(value.x + value.y + value.z <= FLT_MAX))
         return;
     sum[0] += (double)value.x;
     sum[1] += (double)value.y;
     sum[2] += (double)value.z;
 }
 
-static inline void add_bounce(const struct estimator *e, struct batch_sums *sums, int bounce,
+static inline void add_bounce(struct estimator *e, struct batch_sums *sums, int bounce,
                               struct vec3 value)
 {
+    float luminance = v3_luminance(value);
     add(bounce == 1 ? sums->bounce1 : bounce == 2 ? sums->bounce2 : sums->rest, value);
-    if (bounce >= e->bounces - 1 && v3_max_abs(value) <= FLT_MAX)
-        sums->tail[bounce - e->bounces + 1] += (double)v3_luminance(value);
+    if (luminance <= FLT_MAX)
+        e->luminance[bounce - 1] += (double)luminance;
 }
 
-/* Whether the light reaches the point on its side, and then cos_g = g.l and cos_s = n.l. */
-static inline bool lit_cosines(const struct surface_point *point,
-                               const struct light_incident *incident, float *cos_g, float *cos_s)
+static inline bool light_at(const struct estimator *e, const struct surface_point *point,
+                            struct light_incident *incident)
 {
-    *cos_g = v3_dot(point->geometric, incident->to_light);
-    *cos_s = v3_dot(point->shading, incident->to_light);
-    return *cos_g > 0 && *cos_s > 0;
+    return light_source_incident(e->light, point->position, point->geometric, point->shading,
+                                 incident);
 }
 
+/* From the offset origin towards the light itself, or along the beam. */
 static inline bool light_blocked(struct estimator *e, const struct surface_point *point,
                                  const struct light_incident *incident)
 {
-    /* From the offset origin towards the light itself, or along the beam. */
-    struct vec3 direction = incident->to_light;
-    float distance = incident->distance;
-    if (e->light->type == IRB_LIGHT_SPOT) {
-        direction = v3_sub(e->light->position, point->origin);
-        distance = sqrtf(v3_dot(direction, direction));
-        if (!(distance > e->light->offset))
-            return false;
-        direction = v3_scale(direction, 1 / distance);
-    }
-    return trace_occluded(&e->trace, point->origin, direction, 0, distance - e->light->offset);
+    if (e->light->type == IRB_LIGHT_DIRECTIONAL)
+        return trace_occluded(&e->trace, point->origin, incident->to_light, 0,
+                              incident->distance - e->light->offset);
+    return trace_occluded(&e->trace, point->origin, v3_sub(e->light->position, point->origin), 0,
+                          1 - e->light->offset * incident->inverse_distance);
 }
 
-/* (a): L(y) pi at the end of a hemisphere ray, times the weight of (a) against (b). `geometry` is
- * p_a. Zero where the light does not reach y on this side. */
+/* (a): L(y) pi at the end of a hemisphere ray, times the weight of (a) against (b); p_a =
+ * cosines/(pi t^2). Zero where the light does not reach y on this side. */
 static inline struct vec3 gather_hit(struct estimator *e, const struct surface_point *y,
-                                     float geometry, bool connected)
+                                     float cosines, float t, bool connected)
 {
     struct light_incident incident;
-    float cos_g, cos_s;
-    if (e->light->dark || !light_source_incident(e->light, y->position, &incident) ||
-        !lit_cosines(y, &incident, &cos_g, &cos_s) || light_blocked(e, y, &incident))
+    if (!light_at(e, y, &incident) || light_blocked(e, y, &incident))
         return v3(0, 0, 0);
-    float scale = incident.factor * cos_s;
-    if (connected) /* p_a/(p_a + p_b), defined for p_a = 0 and infinity as well */
-        scale /= 1 + incident.density * cos_g / geometry;
+    float scale = incident.factor * incident.cos_shading;
+    if (connected) {
+        float a = INV_PI * cosines, b = incident.density * incident.cos_geometric * t * t;
+        scale *= a / (a + b);
+    }
     return v3_scale(v3_mul(y->diffuse, e->light->intensity), scale);
 }
 
@@ -114,19 +106,15 @@ static inline void sample_light(struct estimator *e, float u, float v, struct li
     struct vec3 origin, direction;
     struct trace_hit hit;
     struct light_incident incident;
-    float cos_g, cos_s;
-    if (e->light->dark)
-        return;
     light_source_emit(e->light, u, v, &origin, &direction);
     if (!trace_closest(&e->trace, origin, direction, e->light->offset, INFINITY, &hit))
         return;
     surface_at(e->trace.surfaces, hit.triangle, hit.u, hit.v, direction, &out->point);
-    if (!light_source_incident(e->light, out->point.position, &incident) ||
-        !lit_cosines(&out->point, &incident, &cos_g, &cos_s))
+    if (!light_at(e, &out->point, &incident))
         return;
     out->radiance = v3_scale(v3_mul(out->point.diffuse, e->light->intensity),
-                             INV_PI * incident.factor * cos_s);
-    out->density = incident.density * cos_g;
+                             INV_PI * incident.factor * incident.cos_shading);
+    out->density = incident.density * incident.cos_geometric;
     out->valid = true;
 }
 
@@ -135,10 +123,10 @@ static inline float connection(const struct surface_point *x, const struct light
 {
     struct vec3 w = v3_sub(y->point.position, x->position);
     float r2 = v3_dot(w, w), cos_x = v3_dot(x->shading, w), cos_y = -v3_dot(y->point.geometric, w);
-    if (!(cos_x > 0 && cos_y > 0 && r2 > 0 && v3_dot(x->geometric, w) > 0))
+    float g = cos_x * cos_y; /* G r^4 */
+    if (!((cos_x > 0) & (cos_y > 0) & (v3_dot(x->geometric, w) > 0)))
         return 0;
-    float g = (cos_x / r2) * (cos_y / r2);
-    return 1 / (INV_PI + y->density / g);
+    return g / (g * INV_PI + y->density * r2 * r2);
 }
 
 static inline bool connection_blocked(struct estimator *e, const struct surface_point *x,
@@ -161,8 +149,8 @@ static void gather_behind(struct estimator *e, const struct surface_point *x, st
             return;
         t = hit.t;
         surface_at(set, hit.triangle, hit.u, hit.v, direction, &y);
-        float p_a = INV_PI * cos_x * -v3_dot(y.geometric, direction) / (t * t);
-        add(sums->unoccluded, gather_hit(e, &y, p_a, true));
+        float cosines = cos_x * -v3_dot(y.geometric, direction);
+        add(sums->unoccluded, gather_hit(e, &y, cosines, t, true));
     }
 }
 
@@ -181,56 +169,126 @@ static inline void connect(struct estimator *e, const struct surface_point *x,
         add_bounce(e, sums, bounce, value);
 }
 
-/* (a) for bounce number `bounce`: extends the path by one ray and moves `x` to its end. False where
- * the path ends. */
-static inline bool extend(struct estimator *e, struct surface_point *x, float u, float v,
-                          struct vec3 throughput, int bounce, struct batch_sums *sums)
-{
+/* The points of SAMPLE_BLOCK samples. */
+struct sample_points {
+    const struct sample_sets *sets;
+    uint32_t first; /* index of the block's first sample */
+    int bounces;    /* for which directions have been made */
+    struct point_block light;
+    struct point_block direction[MAX_BOUNCES];
+};
+
+/* A ray from the end of a path. */
+struct path_ray {
     struct vec3 direction;
-    struct trace_hit hit;
-    struct surface_point y;
-    float cos_x = map_to_cosine(u, v, x->shading, &direction);
-    if (!(v3_dot(direction, x->geometric) > 0) ||
-        !trace_closest(&e->trace, x->origin, direction, 0, INFINITY, &hit))
-        return false;
-    surface_at(e->trace.surfaces, hit.triangle, hit.u, hit.v, direction, &y);
-    float p_a = INV_PI * cos_x * -v3_dot(y.geometric, direction) / (hit.t * hit.t);
-    struct vec3 value = v3_mul(throughput, gather_hit(e, &y, p_a, bounce <= CONNECTED_BOUNCES));
-    add_bounce(e, sums, bounce, value);
-    if (bounce == 1 && e->unoccluded) {
-        add(sums->unoccluded, value);
-        gather_behind(e, x, direction, cos_x, hit.t, sums);
+    float cosine; /* to the shading normal */
+};
+
+/* The ray of bounce number `bounce` from x. Most paths are short, so points are made for a bounce when
+ * the block's first path gets there. */
+static inline void choose_ray(const struct estimator *e, struct sample_points *points, int bounce,
+                              int sample, const struct surface_point *x, struct path_ray *ray)
+{
+    struct point_block *b = &points->direction[bounce - 1];
+    if (bounce > points->bounces) {
+        points->bounces = bounce;
+        e->makers.direction(&points->sets->bounce[bounce - 1], points->first, b);
     }
-    *x = y;
+    struct vec3 s, t;
+    v3_basis(x->shading, &s, &t);
+    ray->cosine = b->z[sample];
+    struct vec3 d = v3_mad(v3_scale(x->shading, ray->cosine), b->x[sample], s);
+    ray->direction = v3_mad(d, b->y[sample], t);
+}
+
+/* Traces a path's next ray from x to y; false where it ends. */
+static inline bool extend(struct estimator *e, const struct surface_point *x,
+                          const struct path_ray *ray, float *t, struct surface_point *y)
+{
+    struct trace_hit hit;
+    if (!(v3_dot(ray->direction, x->geometric) > 0) ||
+        !trace_closest(&e->trace, x->origin, ray->direction, 0, INFINITY, &hit))
+        return false;
+    surface_at(e->trace.surfaces, hit.triangle, hit.u, hit.v, ray->direction, y);
+    *t = hit.t;
     return true;
 }
 
-/* One path from `start` and one ray of the light; `mirrored` is the sample's index. */
-static void add_sample(struct estimator *e, const struct surface_point *start,
-                       const struct sample_sets *sets, uint32_t mirrored, struct batch_sums *sums)
+/* (a) for bounce number `bounce`, whose ray from x ended at y. */
+static inline void gather(struct estimator *e, const struct surface_point *x,
+                          const struct path_ray *ray, float t, const struct surface_point *y,
+                          struct vec3 throughput, int bounce, struct batch_sums *sums)
 {
-    float u, v;
+    float cosines = ray->cosine * -v3_dot(y->geometric, ray->direction);
+    struct vec3 value =
+        v3_mul(throughput, gather_hit(e, y, cosines, t, bounce <= CONNECTED_BOUNCES));
+    add_bounce(e, sums, bounce, value);
+    if (bounce == 1 && e->unoccluded) {
+        add(sums->unoccluded, value);
+        gather_behind(e, x, ray->direction, ray->cosine, t, sums);
+    }
+}
+
+/* Russian roulette: scales the throughput of a path that goes on, false where it ends. */
+static inline bool survives(const struct sample_points *points, int bounce, int sample,
+                            struct vec3 diffuse, struct vec3 *throughput)
+{
+    float survival = v3_max(diffuse);
+    if (bounce <= ROULETTE_BOUNCE || survival >= 1)
+        return survival > 0;
+    uint32_t number = irb_hash_u32(points->sets->roulette + (uint32_t)bounce,
+                                   points->first + (uint32_t)sample);
+    if (irb_unit_float(number) >= survival)
+        return false;
+    *throughput = v3_scale(*throughput, 1 / survival);
+    return true;
+}
+
+/* One path from `start` and one ray of the light. The path's next ray is chosen before the shadow
+ * ray of its end, so that the processor overlaps the two computations. */
+static void add_sample(struct estimator *e, const struct surface_point *start,
+                       struct sample_points *points, int sample, struct batch_sums *sums)
+{
     struct light_vertex lit = {0};
-    irb_sobol_2d_mirrored(&sets->light, mirrored, &u, &v);
-    sample_light(e, u, v, &lit);
-    struct surface_point x = *start;
+    struct surface_point path[2]; /* ends of the path, in turn */
+    const struct surface_point *x = start;
+    struct path_ray ray, next = {0};
     struct vec3 throughput = v3(1, 1, 1);
+    choose_ray(e, points, 1, sample, start, &next);
+    sample_light(e, points->light.x[sample], points->light.y[sample], &lit);
     for (int bounce = 1; bounce <= e->bounces; bounce++) {
+        struct surface_point *y = &path[bounce & 1];
+        float t;
+        ray = next;
         if (lit.valid && bounce <= CONNECTED_BOUNCES)
-            connect(e, &x, &lit, throughput, bounce, sums);
-        irb_sobol_2d_mirrored(&sets->bounce[bounce - 1], mirrored, &u, &v);
-        if (!extend(e, &x, u, v, throughput, bounce, sums))
+            connect(e, x, &lit, throughput, bounce, sums);
+        if (!extend(e, x, &ray, &t, y))
             return;
-        throughput = v3_mul(throughput, x.diffuse);
-        float survival = v3_max(x.diffuse);
-        if (!(survival > 0))
+        if (bounce < e->bounces)
+            choose_ray(e, points, bounce + 1, sample, y, &next);
+        gather(e, x, &ray, t, y, throughput, bounce, sums);
+        throughput = v3_mul(throughput, y->diffuse);
+        if (!survives(points, bounce, sample, y->diffuse, &throughput))
             return;
-        if (bounce > ROULETTE_BOUNCE && survival < 1) {
-            uint32_t number = irb_hash_u32(sets->roulette + (uint32_t)bounce, mirrored);
-            if (irb_unit_float(number) >= survival)
-                return;
-            throughput = v3_scale(throughput, 1 / survival);
-        }
+        x = y;
+    }
+}
+
+/* Samples first..last-1 of a batch. */
+static void add_samples(struct estimator *e, const struct surface_point *point,
+                        const struct sample_sets *sets, uint32_t first, uint32_t last,
+                        struct batch_sums *sums)
+{
+    struct sample_points points;
+    point_block_fn make_light =
+        e->light->type == IRB_LIGHT_SPOT ? e->makers.disc : e->makers.square;
+    points.sets = sets;
+    for (points.first = first; points.first < last; points.first += SAMPLE_BLOCK) {
+        uint32_t count = last - points.first;
+        points.bounces = 0;
+        make_light(&sets->light, points.first, &points.light);
+        for (uint32_t i = 0; i < SAMPLE_BLOCK && i < count; i++)
+            add_sample(e, point, &points, (int)i, sums);
     }
 }
 
@@ -256,20 +314,19 @@ static double luminance(const double rgb[3])
 void estimator_add(struct estimator *estimator, const struct surface_point *point, uint64_t seed,
                    uint32_t first, uint32_t last, struct point_layers *sums)
 {
+    if (estimator->light->dark)
+        return;
     for (uint32_t batch = 0; batch < IRB_REFERENCE_BATCHES; batch++) {
         struct sample_sets sets;
         struct batch_sums b = {0};
         seed_sets(&sets, irb_hash_mix(seed, batch), estimator->bounces);
-        for (uint32_t i = first; i < last; i++)
-            add_sample(estimator, point, &sets, irb_reverse_bits(i), &b);
+        add_samples(estimator, point, &sets, first, last, &b);
         add_sums(sums->bounce1, b.bounce1);
         add_sums(sums->bounce2, b.bounce2);
         add_sums(sums->rest, b.rest);
         add_sums(sums->unoccluded, b.unoccluded);
         sums->bounce1_batch[batch] += (float)luminance(b.bounce1);
         sums->unoccluded_batch[batch] += (float)luminance(b.unoccluded);
-        for (int i = 0; i < 2; i++)
-            sums->tail[i] += (float)b.tail[i];
     }
 }
 
@@ -277,16 +334,13 @@ struct vec3 estimator_direct(struct estimator *estimator, const struct surface_p
                              struct vec3 specular, float exponent, struct vec3 eye)
 {
     struct light_incident incident;
-    float cos_g, cos_s;
-    if (estimator->light->dark ||
-        !light_source_incident(estimator->light, point->position, &incident) ||
-        !lit_cosines(point, &incident, &cos_g, &cos_s) ||
+    if (estimator->light->dark || !light_at(estimator, point, &incident) ||
         light_blocked(estimator, point, &incident))
         return v3(0, 0, 0);
     struct vec3 view = v3_normalize_safe(v3_sub(eye, point->position));
     struct vec3 half = v3_normalize_safe(v3_add(view, incident.to_light));
     float cos_h = v3_dot(point->shading, half);
-    struct vec3 reflectance = v3_scale(point->diffuse, cos_s);
+    struct vec3 reflectance = v3_scale(point->diffuse, incident.cos_shading);
     if (cos_h > 0)
         reflectance = v3_mad(reflectance, powf(cos_h, exponent), specular);
     struct vec3 radiance = v3_mul(reflectance, estimator->light->intensity);

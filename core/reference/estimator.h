@@ -6,6 +6,7 @@
 #define IRB_REFERENCE_ESTIMATOR_H
 
 #include "core/reference/light_source.h"
+#include "core/reference/sample_block.h"
 #include "core/reference/tracer.h"
 
 enum { MAX_BOUNCES = 16 };
@@ -16,7 +17,6 @@ struct point_layers {
     float bounce1[3], bounce2[3], rest[3], unoccluded[3];
     float bounce1_batch[IRB_REFERENCE_BATCHES]; /* luminance, a batch of samples each */
     float unoccluded_batch[IRB_REFERENCE_BATCHES];
-    float tail[2]; /* luminance of the last bounce but one, and of the last */
 };
 
 struct estimator {
@@ -24,6 +24,8 @@ struct estimator {
     const struct light_source *light;
     int bounces;
     bool unoccluded;
+    struct point_makers makers;
+    double luminance[MAX_BOUNCES]; /* of each bounce, summed over all that was estimated */
 };
 
 /* Adds the sums over samples first..last-1 of each batch. `seed` belongs to the point; sample i of

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/reference/light_source.h"
-#include "core/reference/sample_map.h"
 #include "core/reference/surface.h"
 
 /* The least cos(inner) - cos(outer) of SMOOTH, as KHR_lights_punctual has it. */
@@ -35,24 +34,4 @@ void light_source_prepare(struct light_source *out, const struct irb_light *ligh
     out->density = (float)(1 / size);
     out->dark = !isfinite(out->density) || !(out->density > 0) || !(v3_max(out->intensity) > 0);
     out->offset = SURFACE_OFFSET * v3_max_abs(out->position) + scene_offset;
-}
-
-void light_source_emit(const struct light_source *light, float x, float y, struct vec3 *origin,
-                       struct vec3 *direction)
-{
-    if (light->type == IRB_LIGHT_DIRECTIONAL) {
-        *origin = v3_mad(light->position, light->half_width * (2 * x - 1), light->right);
-        *origin = v3_mad(*origin, light->half_width * (2 * y - 1), light->up);
-        *direction = light->direction;
-        return;
-    }
-    /* area-preserving: 1 - cos(theta) is uniform in r^2 */
-    float dx, dy;
-    map_to_disc(x, y, &dx, &dy);
-    float v = light->versine * (dx * dx + dy * dy);
-    float s = sqrtf(light->versine * (2 - v));
-    struct vec3 d = v3_scale(light->direction, 1 - v);
-    d = v3_mad(d, dx * s, light->right);
-    *origin = light->position;
-    *direction = v3_mad(d, dy * s, light->up);
 }

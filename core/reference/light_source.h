@@ -29,54 +29,72 @@ void light_source_prepare(struct light_source *out, const struct irb_light *ligh
 
 /* Light at a point, were nothing in the way. */
 struct light_incident {
-    float factor;        /* irradiance on an element perpendicular to the light / intensity */
-    float density;       /* of emit()'s rays through a perpendicular element, 1/m2 */
+    float factor;  /* irradiance on an element perpendicular to the light / intensity */
+    float density; /* of emit()'s rays through a perpendicular element, 1/m2 */
+    float cos_geometric, cos_shading; /* between the surface's normals and the light */
     float distance;
+    float inverse_distance;
     struct vec3 to_light;
 };
 
 static inline float light_source_falloff(const struct light_source *light, float cos_theta)
 {
     if (light->falloff == IRB_FALLOFF_SMOOTH) {
-        float s = fminf(1, (cos_theta - light->cos_outer) * light->falloff_scale);
+        float s = smaller(1, (cos_theta - light->cos_outer) * light->falloff_scale);
         return s * s;
     }
     return light->falloff == IRB_FALLOFF_COSINE ? cos_theta * light->falloff_scale : 1;
 }
 
-/* False outside the cone or beam. */
+/* False outside the cone or beam, and where either normal faces away. The conditions are joined
+ * without branches: which of them fails can't be predicted. */
 static inline bool light_source_incident(const struct light_source *light, struct vec3 point,
+                                         struct vec3 geometric, struct vec3 shading,
                                          struct light_incident *out)
 {
     struct vec3 d = v3_sub(light->position, point);
+    bool inside;
     if (light->type == IRB_LIGHT_DIRECTIONAL) {
-        out->distance = -v3_dot(d, light->direction);
-        if (!(out->distance > 0) || fabsf(v3_dot(d, light->right)) > light->half_width ||
-            fabsf(v3_dot(d, light->up)) > light->half_width)
-            return false;
         out->to_light = v3_scale(light->direction, -1);
+        out->distance = -v3_dot(d, light->direction);
         out->factor = 1;
         out->density = light->density;
-        return true;
+        inside = (out->distance > 0) & (fabsf(v3_dot(d, light->right)) <= light->half_width) &
+                 (fabsf(v3_dot(d, light->up)) <= light->half_width);
+    } else {
+        float r2 = v3_dot(d, d), inverse2 = 1 / r2;
+        float cos_theta;
+        out->distance = sqrtf(r2);
+        out->inverse_distance = out->distance * inverse2;
+        out->to_light = v3_scale(d, out->inverse_distance);
+        cos_theta = -v3_dot(out->to_light, light->direction);
+        inside = cos_theta >= light->cos_outer; /* false for r = 0, which gives NaN */
+        out->factor = light_source_falloff(light, cos_theta) * inverse2;
+        out->density = light->density * inverse2;
     }
-    float r2 = v3_dot(d, d);
-    if (!(r2 > 0))
-        return false;
-    float inverse = 1 / sqrtf(r2);
-    out->to_light = v3_scale(d, inverse);
-    float cos_theta = -v3_dot(out->to_light, light->direction);
-    if (!(cos_theta >= light->cos_outer))
-        return false;
-    inverse *= inverse;
-    out->distance = sqrtf(r2);
-    out->factor = light_source_falloff(light, cos_theta) * inverse;
-    out->density = light->density * inverse;
-    return true;
+    out->cos_geometric = v3_dot(geometric, out->to_light);
+    out->cos_shading = v3_dot(shading, out->to_light);
+    return inside & (out->cos_geometric > 0) & (out->cos_shading > 0);
 }
 
-/* A ray of the light for a point of the unit square: uniform in the cone's solid angle, or over the
- * beam's square. */
-void light_source_emit(const struct light_source *light, float x, float y, struct vec3 *origin,
-                       struct vec3 *direction);
+/* A ray of the light: for a spot from a point of the unit disc, uniform in the cone's solid angle; for
+ * a beam from a point of the unit square, uniform over the beam. */
+static inline void light_source_emit(const struct light_source *light, float x, float y,
+                                     struct vec3 *origin, struct vec3 *direction)
+{
+    if (light->type == IRB_LIGHT_DIRECTIONAL) {
+        *origin = v3_mad(light->position, light->half_width * (2 * x - 1), light->right);
+        *origin = v3_mad(*origin, light->half_width * (2 * y - 1), light->up);
+        *direction = light->direction;
+        return;
+    }
+    /* area-preserving: 1 - cos(theta) is uniform in r^2 */
+    float v = light->versine * (x * x + y * y);
+    float s = sqrtf(light->versine * (2 - v));
+    struct vec3 d = v3_scale(light->direction, 1 - v);
+    d = v3_mad(d, x * s, light->right);
+    *origin = light->position;
+    *direction = v3_mad(d, y * s, light->up);
+}
 
 #endif

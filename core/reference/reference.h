@@ -62,7 +62,7 @@ struct irb_reference_image {
     int samples;                 /* a pixel */
     double noise;                /* reached: as settings.noise defines it */
     double rest_remainder;       /* estimated irradiance beyond the last bounce (geometric series
-                                    through the last two), as a share of the mean of all bounces;
+                                    through the later half), as a share of the mean of all bounces;
                                     infinite where the series does not converge (albedo 1, closed),
                                     NaN where bounces = 1 gives nothing to go by */
     uint64_t rays;               /* traced for it */

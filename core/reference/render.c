@@ -17,6 +17,7 @@ enum { TILE = 16, TILE_PIXELS = TILE * TILE };
 
 struct tile_state {
     struct point_layers pixels[TILE_PIXELS]; /* sums over the samples so far */
+    double luminance[MAX_BOUNCES];           /* of each bounce, likewise, over the pixels */
 };
 
 struct render {
@@ -89,6 +90,7 @@ static struct estimator make_estimator(const struct render *r)
         .light = &r->light,
         .bounces = r->job->settings->bounces,
         .unoccluded = r->job->settings->unoccluded,
+        .makers = point_makers_choose(),
     };
 }
 
@@ -135,6 +137,8 @@ static bool run_tile(void *user, int tile, int thread)
         double start_s = irb_clock_s();
         struct estimator estimator = make_estimator(r);
         each_pixel(r, &estimator, tile, shade_pixel);
+        for (int i = 0; i < MAX_BOUNCES; i++)
+            r->states[tile].luminance[i] += estimator.luminance[i];
         progress->passes++;
         progress->rays += estimator.trace.rays;
         progress->seconds += irb_clock_s() - start_s;
@@ -167,34 +171,47 @@ static double batch_mean(const float sums[IRB_REFERENCE_BATCHES], uint32_t sampl
     return sum / samples;
 }
 
-/* Relative noise as irb_reference_settings defines it, and the remainder beyond the last bounce.
- * In order of tiles, so that the sums do not depend on threads. */
+/* Irradiance beyond bounce n as a share of bounces 1..n, whose sums these are: a geometric series
+ * through the last half of them. With L bounces of sum S and ratio q between successive ones, what
+ * follows is S q^L/(1 - q^L). The last two alone would be a noisy ratio, as few paths get there. */
+static double remainder_beyond(const double luminance[MAX_BOUNCES], int n)
+{
+    int first = n / 2; /* index of the first bounce of the fit but one; they start at 0 */
+    double all = 0, sum = 0, before = 0;
+    if (n == 1)
+        return NAN;
+    first = first < 1 ? 1 : first;
+    for (int i = 0; i < n; i++) {
+        all += luminance[i];
+        sum += i >= first ? luminance[i] : 0;
+        before += i >= first ? luminance[i - 1] : 0;
+    }
+    if (!(sum > 0 && before > 0))
+        return 0;
+    double q = pow(sum / before, n - first);
+    return q < 1 ? sum * q / (1 - q) / all : INFINITY;
+}
+
+/* Relative noise as irb_reference_settings defines it, and the remainder. In order of tiles, so
+ * that the sums do not depend on threads. */
 static void measure(struct render *r, uint32_t samples)
 {
-    double mean = 0, variance = 0, all = 0, tail[2] = {0, 0};
+    double mean = 0, variance = 0, luminance[MAX_BOUNCES] = {0};
     size_t pixels = 0;
     for (int t = 0; t < r->tiles; t++) {
         for (int i = 0; i < TILE_PIXELS; i++) {
             const struct point_layers *p = &r->states[t].pixels[i];
             mean += batch_mean(p->bounce1_batch, samples);
             variance += batch_variance(p->bounce1_batch, samples);
-            all += (double)(v3_luminance(v3_load(p->bounce1)) + v3_luminance(v3_load(p->bounce2)) +
-                            v3_luminance(v3_load(p->rest)));
-            for (int k = 0; k < 2; k++)
-                tail[k] += (double)p->tail[k];
         }
+        for (int i = 0; i < MAX_BOUNCES; i++)
+            luminance[i] += r->states[t].luminance[i];
     }
     for (size_t i = 0; i < (size_t)r->width * (size_t)r->height; i++)
         pixels += irb_gbuffer_image_covered(r->job->gbuffer, i);
     r->out->samples = (int)samples;
     r->out->noise = mean > 0 ? sqrt(variance * (double)pixels) / mean : 0;
-    double ratio = tail[0] > 0 ? tail[1] / tail[0] : 0;
-    if (r->job->settings->bounces == 1)
-        r->out->rest_remainder = NAN;
-    else if (!(tail[1] > 0))
-        r->out->rest_remainder = 0;
-    else
-        r->out->rest_remainder = ratio < 1 ? tail[1] * ratio / (1 - ratio) / all : INFINITY;
+    r->out->rest_remainder = remainder_beyond(luminance, r->job->settings->bounces);
 }
 
 static void store_rgb(struct irb_image *image, size_t pixel, const float sums[3], float scale)

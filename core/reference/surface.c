@@ -63,8 +63,8 @@ static void fill_triangle(struct surface_set *set, uint32_t index, const struct 
     struct vec3 edge2 = v3_normalize_safe(v3_sub(t->vertex[2], t->vertex[0]));
     t->geometric = v3_normalize_safe(v3_cross(edge1, edge2));
     t->diffuse = v3_load(material->diffuse);
-    t->texture = material->diffuse_texture;
-    t->detail = t->texture < 0 && is_flat(d, t->geometric) ? -1 : (*details)++;
+    d->texture = material->diffuse_texture;
+    t->detail = d->texture < 0 && is_flat(d, t->geometric) ? -1 : (*details)++;
 }
 
 static bool copy_textures(struct surface_set *set, const struct irb_scene *scene)
@@ -115,7 +115,8 @@ bool surface_set_create(struct surface_set *set, const struct irb_scene *scene,
     *set = (struct surface_set){.triangle_count = scene->triangle_count};
     if (!scene->triangle_count)
         return irb_fail(err, IRB_E_INPUT, "scene %s has no triangles", scene->name);
-    set->triangles = calloc(scene->triangle_count, sizeof *set->triangles);
+    size_t size = scene->triangle_count * sizeof *set->triangles;
+    set->triangles = aligned_alloc(SURFACE_TRIANGLE_ALIGNMENT, size);
     /* one more, as fill_triangle writes before it knows whether the record is kept */
     set->details = calloc((size_t)scene->triangle_count + 1, sizeof *set->details);
     if (!set->triangles || !set->details || !copy_textures(set, scene)) {
@@ -123,6 +124,7 @@ bool surface_set_create(struct surface_set *set, const struct irb_scene *scene,
         return irb_fail(err, IRB_E_MEMORY, "no memory to trace %u triangles",
                         scene->triangle_count);
     }
+    memset(set->triangles, 0, size); /* those of no object are points, which no ray hits */
     int details = 0;
     for (int i = 0; i < scene->object_count; i++) {
         const struct irb_object *object = &scene->objects[i];

@@ -14,18 +14,20 @@
  * that (ours; tests/reference covers scenes of millimetres, kilometres and far from the origin). */
 #define SURFACE_OFFSET 0x1p-18f
 
+/* One cache line. */
 struct surface_triangle {
     struct vec3 vertex[3];
     struct vec3 geometric; /* unit normal of the winding; 0 where degenerate */
     struct vec3 diffuse;   /* k_d without texture */
-    int texture;           /* -1: none */
     int detail;            /* index into details, -1: flat and without texture */
 };
+enum { SURFACE_TRIANGLE_ALIGNMENT = sizeof(struct surface_triangle) };
 
 /* What only curved or textured triangles need. */
 struct surface_detail {
     struct vec3 normal[3];
     float texcoord[3][2];
+    int texture; /* -1: none */
 };
 
 struct surface_texture {
@@ -77,11 +79,11 @@ static inline void surface_detail_at(const struct surface_set *set,
     float side = v3_dot(n, point->geometric);
     if (side != 0)
         point->shading = side < 0 ? v3_scale(n, -1) : n;
-    if (triangle->texture >= 0) {
+    if (d->texture >= 0) {
         float s = w * d->texcoord[0][0] + u * d->texcoord[1][0] + v * d->texcoord[2][0];
         float t = w * d->texcoord[0][1] + u * d->texcoord[1][1] + v * d->texcoord[2][1];
         point->diffuse =
-            v3_mul(point->diffuse, surface_texture_sample(set, triangle->texture, s, t));
+            v3_mul(point->diffuse, surface_texture_sample(set, d->texture, s, t));
     }
 }
 

@@ -58,9 +58,20 @@ static inline struct vec3 v3_cross(struct vec3 a, struct vec3 b)
     return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
+/* Of two numbers; fmaxf and fminf are calls where NaN matters, which it does not here. */
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static inline float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
 static inline float v3_max(struct vec3 a)
 {
-    return fmaxf(a.x, fmaxf(a.y, a.z));
+    return larger(a.x, larger(a.y, a.z));
 }
 
 /* Largest magnitude of the components. */

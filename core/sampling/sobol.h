@@ -56,7 +56,7 @@ static inline uint32_t irb_sobol_pascal(uint32_t index)
 /* Upper 24 bits as a float in [0,1). */
 static inline float irb_unit_float(uint32_t bits)
 {
-    return (float)(bits >> 8) * 0x1p-24f;
+    return (float)(int32_t)(bits >> 8) * 0x1p-24f;
 }
 
 /* A well mixed 32-bit hash of (seed, number): two rounds of xor-shift and odd multiplication, with
@@ -82,19 +82,23 @@ static inline struct irb_sobol_set irb_sobol_seed(uint64_t seed, uint32_t set)
     };
 }
 
-/* A point by its index's mirrored bits, which a caller with several sets computes once. */
-static inline void irb_sobol_2d_mirrored(const struct irb_sobol_set *set, uint32_t mirrored,
-                                         float *x, float *y)
+/* Both coordinates as 32-bit fractions, from the index's mirrored bits (which a caller with several
+ * sets computes once). */
+static inline void irb_sobol_2d_bits(const struct irb_sobol_set *set, uint32_t mirrored,
+                                     uint32_t *x, uint32_t *y)
 {
     uint32_t index = irb_reverse_bits(irb_laine_karras(mirrored, set->shuffle));
-    *x = irb_unit_float(irb_reverse_bits(irb_laine_karras(index, set->x)));
-    *y = irb_unit_float(irb_reverse_bits(irb_laine_karras(irb_sobol_pascal(index), set->y)));
+    *x = irb_reverse_bits(irb_laine_karras(index, set->x));
+    *y = irb_reverse_bits(irb_laine_karras(irb_sobol_pascal(index), set->y));
 }
 
 /* Point `index` of the set; both coordinates in [0,1). */
 static inline void irb_sobol_2d(const struct irb_sobol_set *set, uint32_t index, float *x, float *y)
 {
-    irb_sobol_2d_mirrored(set, irb_reverse_bits(index), x, y);
+    uint32_t bits_x, bits_y;
+    irb_sobol_2d_bits(set, irb_reverse_bits(index), &bits_x, &bits_y);
+    *x = irb_unit_float(bits_x);
+    *y = irb_unit_float(bits_y);
 }
 
 #endif
