@@ -12,6 +12,9 @@
 
 /* A config of a thousand trials is below 100 KiB. */
 static const size_t largest_file = 1 << 20;
+/* A config needs 6 levels. libyaml takes time quadratic in the depth of [[[[, so that a small file
+ * could keep it busy for an hour. */
+enum { DEEPEST = 32 };
 
 /* ---- messages ---- */
 
@@ -86,6 +89,31 @@ static bool syntax_error(const char *path, const yaml_parser_t *parser, const ch
     return false;
 }
 
+/* Goes through the file's events before a tree is built. Syntax errors are left to the loader. */
+static bool check_depth(const char *path, const char *text, size_t size, struct irb_error *err)
+{
+    yaml_parser_t parser;
+    if (!yaml_parser_initialize(&parser))
+        return irb_fail(err, IRB_E_MEMORY, "%s: out of memory", path);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
+    int depth = 0;
+    bool ok = true, more = true;
+    yaml_event_t event;
+    while (ok && more && yaml_parser_parse(&parser, &event)) {
+        yaml_event_type_t type = event.type;
+        depth += type == YAML_SEQUENCE_START_EVENT || type == YAML_MAPPING_START_EVENT;
+        depth -= type == YAML_SEQUENCE_END_EVENT || type == YAML_MAPPING_END_EVENT;
+        more = type != YAML_STREAM_END_EVENT;
+        if (depth > DEEPEST)
+            ok = irb_fail(err, IRB_E_INPUT,
+                          "%s:%zu:%zu: expected at most %d lists and maps inside one another", path,
+                          event.start_mark.line + 1, event.start_mark.column + 1, DEEPEST);
+        yaml_event_delete(&event);
+    }
+    yaml_parser_delete(&parser);
+    return ok;
+}
+
 /* A second document would be ignored in silence. */
 static bool refuse_more(struct irb_yaml *yaml, yaml_parser_t *parser, const char *text, size_t size,
                         struct irb_error *err)
@@ -106,9 +134,10 @@ bool irb_yaml_load(struct irb_yaml *yaml, const char *path, struct irb_error *er
     if (!irb_fs_read(path, largest_file, &text, &size, err))
         return false;
     yaml_parser_t parser;
-    if (!yaml_parser_initialize(&parser)) {
+    bool checked = check_depth(path, text, size, err);
+    if (!checked || !yaml_parser_initialize(&parser)) {
         free(text);
-        return irb_fail(err, IRB_E_MEMORY, "%s: out of memory", path);
+        return checked ? irb_fail(err, IRB_E_MEMORY, "%s: out of memory", path) : false;
     }
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
     *yaml = (struct irb_yaml){.path = irb_strdup(path)};
