@@ -47,8 +47,8 @@ bool irb_composite(const struct irb_gbuffer_image *gbuffer, const struct irb_ima
         if (!irb_gbuffer_image_covered(gbuffer, i))
             continue;
         for (size_t c = 0; c < 3; c++) {
-            float value = pixel_of(&gbuffer->diffuse, i)[c] * inverse_pi *
-                          pixel_of(irradiance, i)[c];
+            float value =
+                pixel_of(&gbuffer->diffuse, i)[c] * inverse_pi * pixel_of(irradiance, i)[c];
             if (radiance)
                 value += pixel_of(radiance, i)[c];
             out->data[3 * i + c] = value;

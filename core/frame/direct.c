@@ -14,21 +14,20 @@ struct irb_direct *irb_direct_create(struct irb_gl *gl, int width, int height,
         return NULL;
     }
     direct->gl = gl;
-    direct->program = irb_program_create(gl,
-                                         &(struct irb_program_desc){.name = "direct light",
-                                                                    .vertex = "gl/fullscreen.vert",
-                                                                    .fragment = "frame/direct.frag"},
-                                         err);
+    direct->program =
+        irb_program_create(gl,
+                           &(struct irb_program_desc){.name = "direct light",
+                                                      .vertex = "gl/fullscreen.vert",
+                                                      .fragment = "frame/direct.frag"},
+                           err);
     if (direct->program)
-        direct->radiance = irb_texture_create(gl,
-                                              &(struct irb_texture_desc){.name = "direct: radiance",
-                                                                         .format = GL_RGBA32F,
-                                                                         .width = width,
-                                                                         .height = height},
-                                              err);
+        direct->radiance = irb_texture_create(
+            gl,
+            &(struct irb_texture_desc){
+                .name = "direct: radiance", .format = GL_RGBA32F, .width = width, .height = height},
+            err);
     if (direct->radiance)
-        direct->framebuffer =
-            irb_framebuffer_create(gl, "direct", &direct->radiance, 1, NULL, err);
+        direct->framebuffer = irb_framebuffer_create(gl, "direct", &direct->radiance, 1, NULL, err);
     if (direct->framebuffer)
         return direct;
     irb_direct_destroy(direct);

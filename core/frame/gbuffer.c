@@ -8,12 +8,11 @@ enum { TARGETS = 5 };
 static bool create_texture(struct irb_gbuffer *gbuffer, struct irb_texture **out, const char *name,
                            unsigned format, struct irb_error *err)
 {
-    *out = irb_texture_create(gbuffer->gl,
-                              &(struct irb_texture_desc){.name = name,
-                                                         .format = format,
-                                                         .width = gbuffer->width,
-                                                         .height = gbuffer->height},
-                              err);
+    *out = irb_texture_create(
+        gbuffer->gl,
+        &(struct irb_texture_desc){
+            .name = name, .format = format, .width = gbuffer->width, .height = gbuffer->height},
+        err);
     return *out != NULL;
 }
 
@@ -45,9 +44,8 @@ struct irb_gbuffer *irb_gbuffer_create(struct irb_gl *gl, int width, int height,
     gbuffer->height = height;
     gbuffer->program = irb_program_create(
         gl,
-        &(struct irb_program_desc){.name = "gbuffer",
-                                   .vertex = "frame/geometry.vert",
-                                   .fragment = "frame/gbuffer.frag"},
+        &(struct irb_program_desc){
+            .name = "gbuffer", .vertex = "frame/geometry.vert", .fragment = "frame/gbuffer.frag"},
         err);
     if (gbuffer->program && create_targets(gbuffer, err))
         return gbuffer;

@@ -11,9 +11,10 @@
 
 struct irb_gbuffer {
     int width, height;
-    struct irb_texture *position;  /* RGBA32F: world position (m), 1 where there is geometry, else 0 */
-    struct irb_texture *normal;    /* RGBA32F: unit shading normal on the side that is seen; linear
-                                      Euclidean distance to the camera (m) in w */
+    struct irb_texture
+        *position;              /* RGBA32F: world position (m), 1 where there is geometry, else 0 */
+    struct irb_texture *normal; /* RGBA32F: unit shading normal on the side that is seen; linear
+                                   Euclidean distance to the camera (m) in w */
     struct irb_texture *geometric; /* RGBA32F: unit normal of the triangle, same side; 0 */
     struct irb_texture *diffuse;   /* RGBA32F: k_d; 0 */
     struct irb_texture *specular;  /* RGBA32F: k_s; exponent alpha */

@@ -18,12 +18,11 @@ static const double far_margin = 1.001;
 static bool create_texture(struct irb_rsm *rsm, struct irb_texture **out, const char *name,
                            unsigned format, struct irb_error *err)
 {
-    *out = irb_texture_create(rsm->gl,
-                              &(struct irb_texture_desc){.name = name,
-                                                         .format = format,
-                                                         .width = rsm->resolution,
-                                                         .height = rsm->resolution},
-                              err);
+    *out = irb_texture_create(
+        rsm->gl,
+        &(struct irb_texture_desc){
+            .name = name, .format = format, .width = rsm->resolution, .height = rsm->resolution},
+        err);
     return *out != NULL;
 }
 

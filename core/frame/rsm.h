@@ -13,7 +13,7 @@
 #include "core/scene/light.h"
 
 struct irb_rsm {
-    int resolution; /* texels a side */
+    int resolution;               /* texels a side */
     struct irb_texture *position; /* RGBA32F: world position (m); 1 where there is geometry */
     struct irb_texture *normal;   /* RGBA32F: unit shading normal on the lit side; Euclidean
                                      distance to the light (spot) or along the beam (m) */
@@ -24,16 +24,16 @@ struct irb_rsm {
                                      own, for comparisons take the distance in normal.w */
     struct irb_framebuffer *framebuffer;
     struct irb_program *program;
-    float view_projection[16];    /* world -> clip of the last render, depth 1..0 */
-    float half_extent;            /* of the image in the last render: tan(omega_s) at distance 1, or
-                                     the beam's half side (m) */
-    struct irb_gl *gl;            /* borrowed */
+    float view_projection[16]; /* world -> clip of the last render, depth 1..0 */
+    float half_extent;         /* of the image in the last render: tan(omega_s) at distance 1, or
+                                  the beam's half side (m) */
+    struct irb_gl *gl;         /* borrowed */
 };
 
 struct irb_rsm *irb_rsm_create(struct irb_gl *gl, int resolution, struct irb_error *err);
 void irb_rsm_destroy(struct irb_rsm *rsm);
-/* Spot: nothing nearer than 1e-5 of the current bounds' diagonal (along the axis) is seen, and there
- * is no far end. Directional: from the light's plane to the end of the bounds. */
+/* Spot: nothing nearer than 1e-5 of the current bounds' diagonal (along the axis) is seen, and
+ * there is no far end. Directional: from the light's plane to the end of the bounds. */
 bool irb_rsm_render(struct irb_rsm *rsm, const struct irb_scene_gl *scene,
                     const struct irb_light *light, struct irb_error *err);
 

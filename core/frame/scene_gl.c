@@ -49,9 +49,9 @@ static bool create_buffers(struct irb_scene_gl *out, struct irb_error *err)
     out->indices = out->texcoords ? irb_buffer_create(out->gl, "scene: indices", triangles * 12,
                                                       scene->indices, err)
                                   : NULL;
-    out->flat_normals = out->indices ? irb_buffer_create(out->gl, "scene: flat normals",
-                                                         triangles * 16, flat, err)
-                                     : NULL;
+    out->flat_normals =
+        out->indices ? irb_buffer_create(out->gl, "scene: flat normals", triangles * 16, flat, err)
+                     : NULL;
     free(flat);
     return out->flat_normals != NULL;
 }

@@ -14,7 +14,7 @@ struct irb_scene_gl {
     struct irb_gl *gl;             /* borrowed */
     struct irb_buffer *positions, *normals, *texcoords, *indices;
     struct irb_buffer *flat_normals; /* one vec4 a triangle: unit normal at rest; 0 */
-    struct irb_texture **textures; /* one a scene texture, sRGB-decoded, mipmapped */
+    struct irb_texture **textures;   /* one a scene texture, sRGB-decoded, mipmapped */
     unsigned vertex_array;
 };
 

@@ -12,16 +12,15 @@ enum { RUN_GROUP = 64, PYRAMID_GROUP = 8 }; /* work group sizes there */
 
 struct irb_vpl_sampler {
     struct irb_program *count, *scan, *write;
-    struct irb_program *pyramid;    /* IMPORTANCE only, with the two below */
+    struct irb_program *pyramid; /* IMPORTANCE only, with the two below */
     struct irb_buffer *pyramid_sums;
-    int pyramid_levels;             /* log2 of the padded side, + 1 */
+    int pyramid_levels; /* log2 of the padded side, + 1 */
     struct irb_buffer *runs;
     int resolution;
 };
 
 static struct irb_program *create_program(struct irb_gl *gl, enum irb_vpl_sampling sampling,
-                                          const char *name, const char *path,
-                                          struct irb_error *err)
+                                          const char *name, const char *path, struct irb_error *err)
 {
     static const char *const sampling_defines[] = {"SAMPLING 0", "SAMPLING 1", "SAMPLING 2"};
     const char *const defines[] = {sampling_defines[sampling], NULL};
@@ -40,12 +39,11 @@ static bool create_pyramid(struct irb_gl *gl, struct irb_vpl_sampler *s, struct 
     s->pyramid_levels = 1;
     while (1 << (s->pyramid_levels - 1) < s->resolution)
         s->pyramid_levels++;
-    s->pyramid =
-        create_program(gl, IRB_VPL_IMPORTANCE, "vpl: pyramid", "lights/pyramid.comp", err);
+    s->pyramid = create_program(gl, IRB_VPL_IMPORTANCE, "vpl: pyramid", "lights/pyramid.comp", err);
     if (s->pyramid)
-        s->pyramid_sums = irb_buffer_create(
-            gl, "vpl: pyramid", 4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL,
-            err);
+        s->pyramid_sums =
+            irb_buffer_create(gl, "vpl: pyramid",
+                              4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL, err);
     return s->pyramid_sums != NULL;
 }
 
@@ -84,8 +82,7 @@ static bool create_sampler(struct irb_vpl_set *set, int resolution, struct irb_e
 
 /* Fails unless the lights and the pyramid (of 4-byte sums, padded to a power of two: at most
  * 4 * 4 * 4/3 bytes a texel) fit into what a shader storage block can hold. */
-static bool check_size(struct irb_gl *gl, int64_t lights, int64_t resolution,
-                       struct irb_error *err)
+static bool check_size(struct irb_gl *gl, int64_t lights, int64_t resolution, struct irb_error *err)
 {
     GLint64 most = 0;
     gl->api.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
@@ -118,8 +115,8 @@ struct irb_vpl_set *irb_vpl_set_create(struct irb_gl *gl, enum irb_vpl_sampling 
     set->gl = gl;
     set->sampling = sampling;
     set->capacity = (int)lights;
-    set->lights = irb_buffer_create(gl, "vpl: lights", blocks * IRB_VPL_BLOCK * IRB_VPL_BYTES,
-                                    NULL, err);
+    set->lights =
+        irb_buffer_create(gl, "vpl: lights", blocks * IRB_VPL_BLOCK * IRB_VPL_BYTES, NULL, err);
     if (set->lights)
         set->counter = irb_buffer_create(gl, "vpl: counter", sizeof(uint32_t), NULL, err);
     if (set->counter && create_sampler(set, rsm_resolution, err))
@@ -215,8 +212,7 @@ bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int 
 {
     const struct irb_gl_api *api = &set->gl->api;
     const struct irb_vpl_sampler *s = set->sampler;
-    const int candidates =
-        set->sampling == IRB_VPL_ALL ? s->resolution * s->resolution : samples;
+    const int candidates = set->sampling == IRB_VPL_ALL ? s->resolution * s->resolution : samples;
     if (rsm->resolution != s->resolution || candidates < 1 || candidates > set->capacity)
         return irb_fail(err, IRB_E_INTERNAL,
                         "virtual lights: made for %d of an RSM of %d texels a side, asked for %d "

@@ -28,14 +28,15 @@ struct irb_vpl_set {
                                    vec4 unit normal, vec4 flux (W); each w = 0 */
     struct irb_buffer *counter; /* uint count, written by the sampling pass */
     int capacity;
-    int count;                  /* lights in use after the last sampling */
+    int count; /* lights in use after the last sampling */
     enum irb_vpl_sampling sampling;
     struct irb_vpl_sampler *sampler; /* private: programs, the flux pyramid */
     struct irb_gl *gl;               /* borrowed */
 };
 
 /* Room for `capacity` lights; for IRB_VPL_ALL that is at least resolution^2. IRB_E_INPUT when the
- * buffer would exceed the driver's limit for shader storage (GL guarantees 128 MiB: 1672 x 1672). */
+ * buffer would exceed the driver's limit for shader storage (GL guarantees 128 MiB: 1672 x 1672).
+ */
 struct irb_vpl_set *irb_vpl_set_create(struct irb_gl *gl, enum irb_vpl_sampling sampling,
                                        int rsm_resolution, int capacity, struct irb_error *err);
 void irb_vpl_set_destroy(struct irb_vpl_set *set);
@@ -43,7 +44,8 @@ void irb_vpl_set_destroy(struct irb_vpl_set *set);
 /* Draws `samples` candidates, at most `capacity` (ignored by ALL, which takes every texel), and
  * keeps those with flux, in order; N counts the dropped ones too, so that the estimate stays
  * unbiased. The Halton sequence (without its point 0) starts at `first`, so that a caller may use
- * the same points each frame or go on. An RSM without flux gives 0 lights. Same input, same bits. */
+ * the same points each frame or go on. An RSM without flux gives 0 lights. Same input, same bits.
+ */
 bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int samples,
                         unsigned first, struct irb_error *err);
 

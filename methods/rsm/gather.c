@@ -7,18 +7,18 @@
 /* Work group of shaders/methods/rsm/gather.comp, and of lost_energy.comp. */
 enum { GROUP = 8, ROW_GROUP = 64 };
 
-/* Pixels an invocation gathers for. llvmpipe: 8 runs 2.5 to 4 times as fast as 1, since loading a
- * light costs more there than using it. Hardware has scalar or cached uniform loads and wants many
- * invocations instead. Source: ours. */
-enum { PIXELS_SOFTWARE = 8, PIXELS_HARDWARE = 2 };
+/* Side of the square of pixels that an invocation gathers for. llvmpipe: 4 runs about five times as
+ * fast as 1, since loading a light costs more there than using it. Hardware loads uniforms through
+ * a cache that all lanes share and wants many invocations instead. Source: ours. */
+enum { TILE_SOFTWARE = 4, TILE_HARDWARE = 1 };
 
-static struct irb_program *create_program(struct irb_gl *gl, const char *name, int pixels,
+static struct irb_program *create_program(struct irb_gl *gl, const char *name, int tile,
                                           bool clamped, struct irb_error *err)
 {
-    char pixels_define[32], block_define[32];
-    snprintf(pixels_define, sizeof pixels_define, "PIXELS %d", pixels);
+    char tile_define[32], block_define[32];
+    snprintf(tile_define, sizeof tile_define, "TILE %d", tile);
     snprintf(block_define, sizeof block_define, "VPL_BLOCK %d", IRB_VPL_BLOCK);
-    const char *const defines[] = {pixels_define, block_define, clamped ? "CLAMPED 1" : NULL, NULL};
+    const char *const defines[] = {tile_define, block_define, clamped ? "CLAMPED 1" : NULL, NULL};
     return irb_program_create(gl,
                               &(struct irb_program_desc){.name = name,
                                                          .compute = "methods/rsm/gather.comp",
@@ -35,15 +35,15 @@ struct rsm_gather *rsm_gather_create(struct irb_gl *gl, int width, int height,
         return NULL;
     }
     g->gl = gl;
-    g->pixels = gl->software ? PIXELS_SOFTWARE : PIXELS_HARDWARE;
+    g->tile = gl->software ? TILE_SOFTWARE : TILE_HARDWARE;
     const struct irb_texture_desc desc = {
         .name = "rsm: irradiance", .format = GL_RGBA32F, .width = width, .height = height};
     const struct irb_program_desc energy = {.name = "rsm: lost energy",
                                             .compute = "methods/rsm/lost_energy.comp"};
     if ((g->irradiance = irb_texture_create(gl, &desc, err)) &&
         (g->rows = irb_buffer_create(gl, "rsm: row sums", height * (int64_t)8, NULL, err)) &&
-        (g->plain = create_program(gl, "rsm: gather", g->pixels, false, err)) &&
-        (g->clamped = create_program(gl, "rsm: clamped gather", g->pixels, true, err)) &&
+        (g->plain = create_program(gl, "rsm: gather", g->tile, false, err)) &&
+        (g->clamped = create_program(gl, "rsm: clamped gather", g->tile, true, err)) &&
         (g->energy = irb_program_create(gl, &energy, err)))
         return g;
     rsm_gather_destroy(g);
@@ -69,9 +69,9 @@ bool rsm_gather_run(struct rsm_gather *gather, const struct irb_gbuffer *gbuffer
     const struct irb_gl_api *api = &gather->gl->api;
     const struct irb_program *program = bound > 0 ? gather->clamped : gather->plain;
     const int blocks = irb_vpl_set_blocks(lights) > 0 ? irb_vpl_set_blocks(lights) : 1;
-    const int column = GROUP * gather->pixels;
-    const unsigned columns = (unsigned)((gather->irradiance->width + column - 1) / column);
-    const unsigned rows = (unsigned)((gather->irradiance->height + GROUP - 1) / GROUP);
+    const int side = GROUP * gather->tile;
+    const unsigned columns = (unsigned)((gather->irradiance->width + side - 1) / side);
+    const unsigned rows = (unsigned)((gather->irradiance->height + side - 1) / side);
     const int64_t block_bytes = (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES;
 
     irb_program_use(program);

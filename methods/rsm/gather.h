@@ -12,7 +12,7 @@ struct rsm_gather {
     struct irb_texture *irradiance; /* RGBA32F, W/m2; alpha: mean irradiance that the clamp took */
     struct irb_program *plain, *clamped, *energy;
     struct irb_buffer *rows; /* sums for rsm_gather_lost(), one vec2 a row */
-    int pixels;              /* that one invocation gathers for */
+    int tile;                /* one invocation gathers for tile x tile pixels */
     struct irb_gl *gl;       /* borrowed */
 };
 

@@ -26,10 +26,11 @@ static const struct irb_option params[] = {
     IRB_OPTION_INT(struct rsm_params, samples, SAMPLES_DEFAULT, 1, SAMPLES_MOST, "",
                    "texels that are drawn, the same for all pixels (without effect on mode=all)",
                    "Dachsbacher and Stamminger 2005, section 4"),
-    IRB_OPTION_FLOAT(struct rsm_params, clamp, 0, 0, 1e12, "",
-                     "largest cos cos d^2/r^2 of a light and a pixel, d the diagonal of the scene's "
-                     "bounds; 0 = no clamp",
-                     "thesis 3.2.1; the unit: ours"),
+    IRB_OPTION_FLOAT(
+        struct rsm_params, clamp, 0, 0, 1e12, "",
+        "largest cos cos d^2/r^2 of a light and a pixel, d the diagonal of the scene's "
+        "bounds; 0 = no clamp",
+        "thesis 3.2.1; the unit: ours"),
     IRB_OPTION_END,
 };
 
@@ -37,7 +38,7 @@ enum { STAGE_SAMPLE, STAGE_GATHER };
 static const char *const stages[] = {"sample", "gather", NULL};
 
 struct rsm_state {
-    struct irb_gl *gl;         /* borrowed */
+    struct irb_gl *gl; /* borrowed */
     struct rsm_gather *gather;
     struct irb_vpl_set *lights; /* made when the first frame shows the RSM's resolution */
     int rsm_resolution;         /* that `lights` is made for */

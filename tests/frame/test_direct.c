@@ -12,8 +12,7 @@ static const float grey[3] = {0.5f, 0.25f, 0.75f};
 static struct irb_image render(struct fixture_frame *f)
 {
     struct irb_error err = {0};
-    struct irb_direct *direct =
-        irb_direct_create(gl, f->gbuffer->width, f->gbuffer->height, &err);
+    struct irb_direct *direct = irb_direct_create(gl, f->gbuffer->width, f->gbuffer->height, &err);
     REQUIRE_OK(direct);
     fixture_frame_render(f);
     REQUIRE_OK(irb_direct_render(direct, f->gbuffer, f->rsm, &f->light, &f->camera, &err));
@@ -141,8 +140,8 @@ static void check_shadow(enum irb_light_type type)
             dark++;
         } else if (edge > reach) {
             double r = sqrt(at[0] * at[0] + at[2] * at[2] + 4.0);
-            double expected = type == IRB_LIGHT_SPOT ? 0.5 * 3 / M_PI * (2 / r) / (r * r)
-                                                     : 0.5 * 3 / M_PI;
+            double expected =
+                type == IRB_LIGHT_SPOT ? 0.5 * 3 / M_PI * (2 / r) / (r * r) : 0.5 * 3 / M_PI;
             REQUIRE_REL(found.data[4 * i], expected, 2e-5);
             lit++;
         }

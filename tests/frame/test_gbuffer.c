@@ -160,8 +160,8 @@ static void test_transform(void **state)
     /* (x, y, z) -> (x, y/2 + z, 2 y - 3): the floor becomes the wall z = -3 */
     const float transform[16] = {1, 0, 0, 0, 0, 0.5f, 2, 0, 0, 1, 0, 0, 0, 0, -3, 1};
     memcpy(scene->objects[0].transform, transform, sizeof transform);
-    struct irb_camera camera = fixture_camera((float[]){0, 0, 0}, (float[]){0, 0, -1},
-                                              (float[]){0, 1, 0}, 30);
+    struct irb_camera camera =
+        fixture_camera((float[]){0, 0, 0}, (float[]){0, 0, -1}, (float[]){0, 1, 0}, 30);
     struct irb_gbuffer_image g = render(scene, &camera, 20, 20);
     for (size_t i = 0; i < irb_image_pixels(&g.position); i++) {
         REQUIRE_NEAR(g.position.data[4 * i + 2], -3, 1e-6);
@@ -181,8 +181,9 @@ static void test_texture(void **state)
     struct irb_builder builder;
     irb_builder_begin(&builder, "textured");
     unsigned char *rgba = malloc(16);
-    memcpy(rgba, (unsigned char[]){255, 0, 0, 255, 0, 255, 0, 255, /* row 0 */
-                                   188, 188, 188, 255, 0, 0, 255, 255},
+    memcpy(rgba,
+           (unsigned char[]){255, 0, 0, 255, 0, 255, 0, 255, /* row 0 */
+                             188, 188, 188, 255, 0, 0, 255, 255},
            16);
     int texture = irb_builder_texture(&builder, "t", 2, 2, rgba);
     int material = irb_builder_material(&builder, "m", (float[]){1, 1, 0.5f});
@@ -198,8 +199,8 @@ static void test_texture(void **state)
     irb_builder_triangle(&builder, v[0], v[3], v[1]);
     struct irb_scene *scene = irb_builder_finish(&builder, &err);
     REQUIRE_OK(scene);
-    struct irb_camera camera = fixture_camera((float[]){0, 0, 1}, (float[]){0, 0, 0},
-                                              (float[]){0, 1, 0}, 90);
+    struct irb_camera camera =
+        fixture_camera((float[]){0, 0, 1}, (float[]){0, 0, 0}, (float[]){0, 1, 0}, 90);
     struct irb_gbuffer_image g = render(scene, &camera, 66, 66); /* pixel 16 is at 1/4 */
     /* sRGB 188 is 0.502886 linear */
     const float expected[4][3] = {

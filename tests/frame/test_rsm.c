@@ -41,8 +41,7 @@ static void test_texel_solid_angles(void **state)
     struct irb_scene *scene = fixture_floor(1000, grey);
     for (int c = 0; c < 4; c++)
         for (int k = 0; k < 4; k++) {
-            struct irb_light light =
-                fixture_spot((float[]){0, 1, 0}, (float[]){0, 0, 0}, cones[c]);
+            struct irb_light light = fixture_spot((float[]){0, 1, 0}, (float[]){0, 0, 0}, cones[c]);
             int n = resolutions[k];
             double t = tan((double)light.outer), side = 2 * t / n;
             struct irb_rsm *rsm = render(scene, &light, n);
@@ -135,8 +134,8 @@ static void test_positions(void **state)
     const float grey[3] = {0.5f, 0.5f, 0.5f};
     struct irb_scene *scene = fixture_floor(30, grey);
     for (int side = -1; side <= 1; side += 2) {
-        struct irb_light light = fixture_spot((float[]){0.2f, (float)side, -0.1f},
-                                              (float[]){0.7f, 0, 0.4f}, 40);
+        struct irb_light light =
+            fixture_spot((float[]){0.2f, (float)side, -0.1f}, (float[]){0.7f, 0, 0.4f}, 40);
         float right[3], up[3];
         irb_light_basis(&light, right, up);
         struct irb_rsm *rsm = render(scene, &light, 33);
@@ -155,8 +154,8 @@ static void test_positions(void **state)
                 if (!(k > 0) || k > 20)
                     continue; /* misses the floor, or grazes it */
                 for (int i = 0; i < 3; i++)
-                    REQUIRE_NEAR(irb_image_at(&position, x, y)[i],
-                                 light.position[i] + k * ray[i], 1e-5 * k);
+                    REQUIRE_NEAR(irb_image_at(&position, x, y)[i], light.position[i] + k * ray[i],
+                                 1e-5 * k);
                 REQUIRE_NEAR(irb_image_at(&normal, x, y)[1], side, 0);
                 REQUIRE_REL(irb_image_at(&normal, x, y)[3], k * sqrt(r), 1e-5);
             }
@@ -224,12 +223,9 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texel_solid_angles),
-        cmocka_unit_test(test_flux_sum),
-        cmocka_unit_test(test_directional),
-        cmocka_unit_test(test_positions),
-        cmocka_unit_test(test_depth_precision),
-        cmocka_unit_test(test_nothing_seen),
+        cmocka_unit_test(test_texel_solid_angles), cmocka_unit_test(test_flux_sum),
+        cmocka_unit_test(test_directional),        cmocka_unit_test(test_positions),
+        cmocka_unit_test(test_depth_precision),    cmocka_unit_test(test_nothing_seen),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

@@ -115,8 +115,7 @@ static void test_flux_converges(void **state)
     const double allowed[] = {0.15, 0.03, 0.005};
     for (int sampling = IRB_VPL_UNIFORM; sampling <= IRB_VPL_IMPORTANCE; sampling++)
         for (int k = 0; k < 3; k++) {
-            struct irb_vpl_set *set =
-                sample(f.rsm, (enum irb_vpl_sampling)sampling, samples[k], 0);
+            struct irb_vpl_set *set = sample(f.rsm, (enum irb_vpl_sampling)sampling, samples[k], 0);
             struct vpl *vpls = read_lights(set);
             double sum[3];
             sum_flux(vpls, set->count, sum);
@@ -246,8 +245,7 @@ static void test_few_texels(void **state)
                 flux.data[kind == 2 ? 1 : last + 1] = 2;
             fill_rsm(rsm, &flux);
             for (int sampling = 0; sampling <= IRB_VPL_IMPORTANCE; sampling++) {
-                struct irb_vpl_set *set =
-                    sample(rsm, (enum irb_vpl_sampling)sampling, 100, 0);
+                struct irb_vpl_set *set = sample(rsm, (enum irb_vpl_sampling)sampling, 100, 0);
                 struct vpl *vpls = read_lights(set);
                 double sum[3];
                 sum_flux(vpls, set->count, sum);
@@ -286,12 +284,9 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all),
-        cmocka_unit_test(test_flux_converges),
-        cmocka_unit_test(test_importance),
-        cmocka_unit_test(test_sequence_goes_on),
-        cmocka_unit_test(test_few_texels),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_all),        cmocka_unit_test(test_flux_converges),
+        cmocka_unit_test(test_importance), cmocka_unit_test(test_sequence_goes_on),
+        cmocka_unit_test(test_few_texels), cmocka_unit_test(test_refusals),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

@@ -98,10 +98,9 @@ static void test_squares(void **state)
         const float *at = position.data + 4 * i;
         if (at[3] == 0)
             continue;
-        double factor = corner_factor(0.5 - at[0], 0.5 - at[2]) +
-                        corner_factor(0.5 + at[0], 0.5 - at[2]) +
-                        corner_factor(0.5 - at[0], 0.5 + at[2]) +
-                        corner_factor(0.5 + at[0], 0.5 + at[2]);
+        double factor =
+            corner_factor(0.5 - at[0], 0.5 - at[2]) + corner_factor(0.5 + at[0], 0.5 - at[2]) +
+            corner_factor(0.5 - at[0], 0.5 + at[2]) + corner_factor(0.5 + at[0], 0.5 + at[2]);
         REQUIRE_REL(e.data[4 * i], 0.5 * 10 * factor, 1e-3);
         sum += e.data[4 * i];
         covered++;
@@ -344,12 +343,9 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_squares),
-        cmocka_unit_test(test_brute_force),
-        cmocka_unit_test(test_samples_converge),
-        cmocka_unit_test(test_same_bits_twice),
-        cmocka_unit_test(test_changing_frames),
+        cmocka_unit_test(test_sphere),          cmocka_unit_test(test_squares),
+        cmocka_unit_test(test_brute_force),     cmocka_unit_test(test_samples_converge),
+        cmocka_unit_test(test_same_bits_twice), cmocka_unit_test(test_changing_frames),
         cmocka_unit_test(test_scales),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,14 +4,15 @@
  * 2005; thesis 3.2.2, eq. 3.6):
  *     E(x) = sum Phi/pi cos_x cos_y / r^2.
  *
- * An invocation gathers for PIXELS pixels at once: a light is loaded once for all of them, and on
- * a software rasteriser that load is what a light costs. Lanes lie side by side, an invocation's
- * own pixels GROUP columns apart.
+ * An invocation gathers for TILE x TILE pixels at once: a light is loaded once for all of them, and
+ * on a software rasteriser that load is what a light costs. Lanes lie side by side, an invocation's
+ * own pixels GROUP columns or rows apart.
  *
  * With CLAMPED the geometry term is cut at `bound`; alpha takes the irradiance that is lost by it
  * (mean of the channels).
  */
 #define GROUP 8
+#define PIXELS (TILE * TILE)
 layout(local_size_x = GROUP, local_size_y = GROUP) in;
 #include "lights/form_factor.glsl"
 #include "lights/vpl.glsl"
@@ -30,12 +31,12 @@ const float INV_PI = 0.318309886183790672;
 void main()
 {
     ivec2 size = imageSize(irradiance);
-    ivec2 base = ivec2(gl_WorkGroupID.xy) * ivec2(GROUP * PIXELS, GROUP) +
+    ivec2 base = ivec2(gl_WorkGroupID.xy) * (GROUP * TILE) +
                  ivec2(gl_LocalInvocationID.xy);
     vec3 x[PIXELS], n[PIXELS];
     vec4 sum[PIXELS];
     for (int j = 0; j < PIXELS; j++) {
-        ivec2 pixel = min(base + ivec2(j * GROUP, 0), size - 1);
+        ivec2 pixel = min(base + GROUP * ivec2(j % TILE, j / TILE), size - 1);
         x[j] = texelFetch(gbuffer_position, pixel, 0).xyz;
         n[j] = texelFetch(gbuffer_normal, pixel, 0).xyz; /* 0 without geometry: so is the sum */
         sum[j] = vec4(0.0);
@@ -56,11 +57,11 @@ void main()
             sum[j].rgb += flux * g;
         }
     }
+    /* Loads and stores outside the image do nothing. No branch here: a loop that is not unrolled
+     * would index the arrays dynamically and put them into memory, at half the speed. */
     for (int j = 0; j < PIXELS; j++) {
-        ivec2 pixel = base + ivec2(j * GROUP, 0);
-        if (pixel.x >= size.x || pixel.y >= size.y)
-            continue;
-        vec4 before = first_block != 0 ? vec4(0.0) : imageLoad(irradiance, pixel);
-        imageStore(irradiance, pixel, before + INV_PI * sum[j]);
+        ivec2 pixel = base + GROUP * ivec2(j % TILE, j / TILE);
+        vec4 before = imageLoad(irradiance, pixel);
+        imageStore(irradiance, pixel, (first_block != 0 ? vec4(0.0) : before) + INV_PI * sum[j]);
     }
 }
