@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The yardstick of tests/methods/bench_rsm_gather.c: the arithmetic of gather.comp over one block of
- * lights and nothing else, for TILE x TILE pixels an invocation.
+ * The yardstick of tests/methods/bench_rsm_gather.c: the arithmetic of gather.comp over one block
+ * of lights and nothing else, for TILE x TILE pixels an invocation.
  */
 #define GROUP 8
 #define PIXELS (TILE * TILE)
