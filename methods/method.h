@@ -75,7 +75,8 @@ struct irb_method {
     unsigned needs;               /* enum irb_method_needs */
     size_t params_size;           /* of its parameter struct */
     const struct irb_option *params; /* ended by IRB_OPTION_END */
-    const char *const *stages;    /* names for timing, NULL-terminated, at most 24 */
+    const char *const *stages;    /* names for timing, NULL-terminated, at most 24;
+                                     not gbuffer, rsm or direct, which the core times */
 
     /* State for one trial, for images of width x height. NULL on failure. */
     void *(*create)(struct irb_gl *gl, const struct irb_scene_gl *scene, int width, int height,

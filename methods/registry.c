@@ -22,6 +22,8 @@ static const struct irb_method *const builtin_methods[] = {
         NULL,
 };
 
+const char *const irb_core_stages[] = {"gbuffer", "rsm", "direct", NULL};
+
 enum {
     MOST_METHODS = sizeof((struct irb_registry *)0)->methods / sizeof(void *),
     MOST_MODULES = sizeof((struct irb_registry *)0)->modules / sizeof(void *),
@@ -123,6 +125,11 @@ static bool check_method(const struct irb_registry *registry, const struct irb_m
     if (!stages || stages > MOST_STAGES)
         return irb_fail(err, IRB_E_INPUT, "method '%s': expected 1 to %d stages, found %s",
                         method->name, MOST_STAGES, stages ? "more" : "none");
+    for (int i = 0; i < stages; i++)
+        for (int r = 0; irb_core_stages[r]; r++)
+            if (!strcmp(method->stages[i], irb_core_stages[r]))
+                return irb_fail(err, IRB_E_INPUT, "method '%s': stage '%s' is the core's own name",
+                                method->name, method->stages[i]);
     return check_params(method, err);
 }
 

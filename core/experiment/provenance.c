@@ -78,6 +78,20 @@ bool irb_provenance_store_host(struct irb_run *run, struct irb_error *err)
     return ok;
 }
 
+/* Frames of one run come from one driver and one set of shaders: times and bits of several would
+ * look like those of one. */
+static bool same_as_before(struct irb_run *run, const struct pair *now, struct irb_error *err)
+{
+    char *before = irb_store_get_meta(run->store, now->name);
+    bool same = !before || !strcmp(before, now->value);
+    if (!same)
+        irb_fail(err, IRB_E_USAGE,
+                 "%s: was rendered with another %s ('%s', now '%s'); choose another --out", run->dir,
+                 now->name, before, now->value);
+    free(before);
+    return same;
+}
+
 bool irb_provenance_store_gl(struct irb_run *run, struct irb_error *err)
 {
     char shaders[33];
@@ -88,6 +102,9 @@ bool irb_provenance_store_gl(struct irb_run *run, struct irb_error *err)
         {"gl_software", run->gl->software ? "true" : "false"},
         {"shader_hash", shaders},
     };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        if (!same_as_before(run, &pairs[i], err))
+            return false;
     return store_all(run, pairs, sizeof pairs / sizeof *pairs, err);
 }
 

@@ -9,7 +9,8 @@
 
 /* Version, git commit, config key and text, command line, CPU, threads, date. */
 bool irb_provenance_store_host(struct irb_run *run, struct irb_error *err);
-/* GL vendor, renderer, version, platform; shader hash. */
+/* GL vendor, renderer, version, platform; shader hash: of the stage that renders. IRB_E_USAGE where
+ * the run holds frames of another. */
 bool irb_provenance_store_gl(struct irb_run *run, struct irb_error *err);
 /* Seconds by kind of work, of this process. */
 bool irb_provenance_store_seconds(struct irb_run *run, struct irb_error *err);

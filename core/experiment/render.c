@@ -7,6 +7,7 @@
 #include "core/base/fs.h"
 #include "core/experiment/frame_file.h"
 #include "core/experiment/paths.h"
+#include "core/experiment/provenance.h"
 #include "core/experiment/run.h"
 #include "core/frame/direct.h"
 #include "core/image/exr.h"
@@ -14,10 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Stages that every trial shares and pays for, in order. */
-enum core_stage { STAGE_GBUFFER, STAGE_RSM, STAGE_DIRECT, CORE_STAGE_COUNT };
-static const char *const core_stage_names[CORE_STAGE_COUNT] = {"gbuffer", "rsm", "direct"};
 
 /* Warm-up frames of a method that keeps no history: they only load caches and compile shaders. */
 enum { WARM_UP_FRAMES = 1 };
@@ -152,13 +149,13 @@ static bool open_passes(struct scene_run *scene, struct irb_error *err)
 static bool render_core(struct scene_run *scene, int frame, struct irb_error *err)
 {
     const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
-    irb_timer_begin(scene->timer, STAGE_GBUFFER);
+    irb_timer_begin(scene->timer, IRB_CORE_GBUFFER);
     bool ok = irb_gbuffer_render(scene->gbuffer, scene->scene, &pose->camera, err);
     irb_timer_end(scene->timer);
-    irb_timer_begin(scene->timer, STAGE_RSM);
+    irb_timer_begin(scene->timer, IRB_CORE_RSM);
     ok = ok && irb_rsm_render(scene->rsm, scene->scene, &pose->light, err);
     irb_timer_end(scene->timer);
-    irb_timer_begin(scene->timer, STAGE_DIRECT);
+    irb_timer_begin(scene->timer, IRB_CORE_DIRECT);
     ok = ok && irb_direct_render(scene->direct, scene->gbuffer, scene->rsm, &pose->light,
                                  &pose->camera, err);
     irb_timer_end(scene->timer);
@@ -200,10 +197,10 @@ static bool store_frame(struct scene_run *scene, struct trial_run *trial, int fr
                               frame, "exr");
     bool ok = irb_frame_file_save(path, output, err);
     free(path);
-    struct irb_store_value stages[CORE_STAGE_COUNT + IRB_MAX_STAGES];
+    struct irb_store_value stages[IRB_CORE_STAGE_COUNT + IRB_MAX_STAGES];
     int stage_count = 0;
-    for (int i = 0; i < CORE_STAGE_COUNT; i++)
-        stages[stage_count++] = (struct irb_store_value){core_stage_names[i], scene->core_ms[i]};
+    for (int i = 0; i < IRB_CORE_STAGE_COUNT; i++)
+        stages[stage_count++] = (struct irb_store_value){irb_core_stages[i], scene->core_ms[i]};
     const char *const *names = trial->trial->method->stages;
     for (int i = 0; names[i] && i < IRB_MAX_STAGES; i++)
         stages[stage_count++] = (struct irb_store_value){names[i], ms[i]};
@@ -341,7 +338,7 @@ bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence,
         return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", run->config->trial_count);
     scene.trial_count = run->config->trial_count;
     int to_render = 0;
-    bool ok = true;
+    bool ok = irb_run_need_gl(run, err) && irb_provenance_store_gl(run, err);
     irb_run_work(run, IRB_WORK_STORE);
     for (int i = 0; ok && i < scene.trial_count; i++) {
         scene.trials[i].trial = &run->config->trials[i];
@@ -352,7 +349,7 @@ bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence,
     if (ok && to_render) {
         irb_info(run->log, "%s: rendering %d of %d trials, %d frames", sequence->entry->name,
                  to_render, scene.trial_count, run->config->render.frames);
-        ok = irb_run_need_gl(run, err) && open_passes(&scene, err);
+        ok = open_passes(&scene, err);
         for (int i = 0; ok && i < scene.trial_count; i++)
             if (scene.trials[i].last_frame >= 0)
                 ok = create_trial_state(&scene, &scene.trials[i], err);

@@ -37,7 +37,7 @@ bool irb_run_need_gl(struct irb_run *run, struct irb_error *err)
     enum irb_work before = run->working;
     irb_run_work(run, IRB_WORK_STARTUP);
     run->gl = irb_gl_create(&desc, err);
-    bool ok = run->gl && (!run->store || irb_provenance_store_gl(run, err));
+    bool ok = run->gl != NULL;
     if (ok)
         irb_debug(run->log, "OpenGL: %s (%s)", run->gl->renderer, run->gl->platform);
     irb_run_work(run, before);
@@ -96,7 +96,13 @@ static bool store_keys(struct irb_run *run, const struct irb_sequence *sequence,
         irb_str_printf(&lines, "%s %s\n", sequence->frames[i].gbuffer.hex,
                        sequence->frames[i].reference.hex);
     char *name = irb_asprintf("scene/%s/keys", sequence->entry->name);
-    bool ok = irb_store_set_meta(run->store, name, irb_str_text(&lines), err);
+    char *before = irb_store_get_meta(run->store, name);
+    bool ok = (!before || !strcmp(before, irb_str_text(&lines)) ||
+               irb_fail(err, IRB_E_USAGE,
+                        "%s: scene %s has changed since this run began; choose another --out",
+                        run->dir, sequence->entry->name)) &&
+              irb_store_set_meta(run->store, name, irb_str_text(&lines), err);
+    free(before);
     free(name);
     irb_str_free(&lines);
     return ok;

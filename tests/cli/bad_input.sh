@@ -109,6 +109,9 @@ if "$IRBENCH" doctor >/dev/null 2>&1; then
     expect 3 "frame/gbuffer.frag:$line" "$IRBENCH" run "$work/good.yaml" --shader-dir "$work/shaders" --out "$work/shader"
     expect 3 "no-such-dir" "$IRBENCH" run "$work/good.yaml" --shader-dir "$work/no-such-dir" --out "$work/shader2"
     check "the good config runs" "$IRBENCH" run "$work/good.yaml" --out "$work/good"
+    cp -r "$SOURCE/shaders" "$work/other-shaders"
+    echo '// another comment' >>"$work/other-shaders/frame/rsm.frag"
+    expect 2 "was rendered with another shader_hash" "$IRBENCH" run "$work/good.yaml" --shader-dir "$work/other-shaders" --out "$work/good"
     expect 2 "holds another experiment" "$IRBENCH" run "$work/good.yaml" --out "$work/good" --set seed=9
 fi
 finish
