@@ -9,6 +9,8 @@
 #ifndef IRB_SCORE_FLIP_COLOUR_H
 #define IRB_SCORE_FLIP_COLOUR_H
 
+#include "core/score/flip_math.h"
+
 #include <math.h>
 
 struct irb_opponent {
@@ -51,7 +53,9 @@ static inline float irb_unit(float v)
 static inline float irb_lab_f(float t)
 {
     const float delta = 6.0f / 29;
-    return t > delta * delta * delta ? cbrtf(t) : t / (3 * delta * delta) + 4.0f / 29;
+    const float knee = delta * delta * delta;
+    float root = irb_cube_root(t > knee ? t : knee);
+    return t > knee ? root : t / (3 * delta * delta) + 4.0f / 29;
 }
 
 /* CIELab with the Hunt effect: chroma scaled by lightness / 100 (2020 paper, section 4.1). */

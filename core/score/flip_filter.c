@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/score/flip_filter.h"
 
+#include "core/score/flip_math.h"
+
 #include <math.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -110,48 +113,73 @@ bool irb_flip_filters_init(struct irb_flip_filters *f, double ppd)
     return true;
 }
 
-/* Two pairs of taps a turn: half the traffic to `out`. */
-static void add_even(float *restrict out, int count, const float *restrict a,
-                     const float *restrict b, float w, const float *restrict c,
-                     const float *restrict d, float v)
+/* Pixels that are filtered together, their sums in registers. */
+enum { LANES = 8, VECTORS = 2, BLOCK = LANES * VECTORS };
+typedef float vec __attribute__((vector_size(LANES * sizeof(float))));
+
+/* Rows are not aligned. */
+static inline void load(vec *v, const float *p)
 {
-    for (int x = 0; x < count; x++)
-        out[x] += w * (a[x] + b[x]) + v * (c[x] + d[x]);
+    memcpy(v, p, sizeof *v);
 }
 
-static void add_odd(float *restrict out, int count, const float *restrict a,
-                    const float *restrict b, float w, const float *restrict c,
-                    const float *restrict d, float v)
+/* What a pair of taps adds; the same operations for one pixel and for several. */
+#define PAIR(kind, w, a, b, c)                                                                     \
+    ((kind) == IRB_FLIP_EVEN  ? (w) * ((a) + (b))                                                  \
+     : (kind) == IRB_FLIP_ODD ? (w) * ((a) - (b))                                                  \
+                              : (w) * (((a) - (c)) + ((b) - (c))))
+
+static inline void apply_block(enum irb_flip_kind kind, const struct irb_flip_kernel *kernel,
+                               const float *const *tap, int x, float *out)
 {
-    for (int x = 0; x < count; x++)
-        out[x] += w * (a[x] - b[x]) + v * (c[x] - d[x]);
+    vec sum[VECTORS], centre[VECTORS];
+    float middle = kind == IRB_FLIP_EVEN ? kernel->weight[0] : 0;
+    for (int i = 0; i < VECTORS; i++) {
+        load(&centre[i], tap[0] + x + i * LANES);
+        sum[i] = middle * centre[i];
+    }
+    for (int k = 1; k <= kernel->radius; k++) {
+        const float *a = tap[k] + x, *b = tap[-k] + x;
+        float w = kernel->weight[k];
+        for (int i = 0; i < VECTORS; i++) {
+            vec right, left;
+            load(&right, a + i * LANES);
+            load(&left, b + i * LANES);
+            sum[i] += PAIR(kind, w, right, left, centre[i]);
+        }
+    }
+    for (int i = 0; i < VECTORS; i++)
+        memcpy(out + x + i * LANES, &sum[i], sizeof sum[i]);
 }
 
-static void add_second(float *restrict out, int count, const float *restrict a,
-                       const float *restrict b, float w, const float *restrict c,
-                       const float *restrict d, float v, const float *restrict centre)
+static inline void apply_pixel(enum irb_flip_kind kind, const struct irb_flip_kernel *kernel,
+                               const float *const *tap, int x, float *out)
 {
-    for (int x = 0; x < count; x++)
-        out[x] += w * ((a[x] - centre[x]) + (b[x] - centre[x])) +
-                  v * ((c[x] - centre[x]) + (d[x] - centre[x]));
+    float centre = tap[0][x], sum = kind == IRB_FLIP_EVEN ? kernel->weight[0] * centre : 0;
+    for (int k = 1; k <= kernel->radius; k++)
+        sum += PAIR(kind, kernel->weight[k], tap[k][x], tap[-k][x], centre);
+    out[x] = sum;
 }
 
+static inline void apply(enum irb_flip_kind kind, const struct irb_flip_kernel *kernel,
+                         const float *const *tap, int count, float *out)
+{
+    int x = 0;
+    for (; x + BLOCK <= count; x += BLOCK)
+        apply_block(kind, kernel, tap, x, out);
+    for (; x < count; x++)
+        apply_pixel(kind, kernel, tap, x, out);
+}
+
+/* One loop for each kind: the compiler sees which it is. */
+IRB_FLIP_WIDE
 void irb_flip_apply(const struct irb_flip_kernel *kernel, const float *const *tap, int count,
                     float *out)
 {
-    float middle = kernel->kind == IRB_FLIP_EVEN ? kernel->weight[0] : 0;
-    for (int x = 0; x < count; x++)
-        out[x] = middle * tap[0][x];
-    for (int k = 1; k <= kernel->radius; k += 2) {
-        /* An odd radius leaves the second pair of the last turn: weight 0. */
-        bool both = k < kernel->radius;
-        int l = both ? k + 1 : k;
-        float w = kernel->weight[k], v = both ? kernel->weight[l] : 0;
-        if (kernel->kind == IRB_FLIP_EVEN)
-            add_even(out, count, tap[k], tap[-k], w, tap[l], tap[-l], v);
-        else if (kernel->kind == IRB_FLIP_ODD)
-            add_odd(out, count, tap[k], tap[-k], w, tap[l], tap[-l], v);
-        else
-            add_second(out, count, tap[k], tap[-k], w, tap[l], tap[-l], v, tap[0]);
-    }
+    if (kernel->kind == IRB_FLIP_EVEN)
+        apply(IRB_FLIP_EVEN, kernel, tap, count, out);
+    else if (kernel->kind == IRB_FLIP_ODD)
+        apply(IRB_FLIP_ODD, kernel, tap, count, out);
+    else
+        apply(IRB_FLIP_SECOND, kernel, tap, count, out);
 }

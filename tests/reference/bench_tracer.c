@@ -35,13 +35,13 @@ static bool bare_loop(void *user, int index, int thread)
     rtcInitIntersectContext(&context);
     unsigned long hits = 0;
     for (size_t i = 0; i < recording->count; i++) {
-        const struct trace_record *r = &recording->records[i];
+        const struct trace_ray *r = &recording->rays[i];
         struct RTCRayHit query = {.ray = {.org_x = r->origin.x, .org_y = r->origin.y,
                                           .org_z = r->origin.z, .tnear = r->near,
                                           .dir_x = r->direction.x, .dir_y = r->direction.y,
                                           .dir_z = r->direction.z, .tfar = r->far, .mask = ~0u}};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        if (r->occlusion) {
+        if (recording->occlusion[i]) {
             rtcOccluded1(bare->scene, &context, &query.ray);
             hits += query.ray.tfar < 0;
         } else {
@@ -133,7 +133,8 @@ static bool measure(struct fixture *fixture, int samples)
     struct trace_recording *recordings = calloc((size_t)threads, sizeof *recordings);
     for (int i = 0; i < threads; i++) {
         recordings[i].capacity = MAX_RECORDS;
-        recordings[i].records = malloc(MAX_RECORDS * sizeof *recordings[i].records);
+        recordings[i].rays = malloc(MAX_RECORDS * sizeof *recordings[i].rays);
+        recordings[i].occlusion = malloc(MAX_RECORDS * sizeof *recordings[i].occlusion);
     }
     shading.recordings = recordings;
     irb_parallel_for(threads, threads, shade, &shading);
@@ -155,8 +156,10 @@ static bool measure(struct fixture *fixture, int samples)
            fixture->scene->name, rays, threads, (double)rays / median(shaded, REPEATS) * 1e-6,
            (double)rays / median(looped, REPEATS) * 1e-6, result, ratio[0], ratio[REPEATS - 1],
            complete ? "" : " INVALID: too many rays to record");
-    for (int i = 0; i < threads; i++)
-        free(recordings[i].records);
+    for (int i = 0; i < threads; i++) {
+        free(recordings[i].rays);
+        free(recordings[i].occlusion);
+    }
     free(recordings);
     return complete && result >= required_ratio;
 }

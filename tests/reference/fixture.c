@@ -102,8 +102,10 @@ static void look_at_pixel(struct fixture *fixture, struct trace_context *context
     struct irb_gbuffer_image *g = &fixture->gbuffer;
     struct trace_hit hit;
     struct surface_point p;
-    struct vec3 eye = v3_load(fixture->camera.position);
-    if (!trace_closest(context, eye, direction, 0, INFINITY, &hit))
+    struct trace_ray ray = {.origin = v3_load(fixture->camera.position), .direction = direction,
+                            .far = INFINITY};
+    trace_closest(context, &ray, 1, &hit);
+    if (hit.triangle == TRACE_MISS)
         return;
     surface_at(context->surfaces, hit.triangle, hit.u, hit.v, direction, &p);
     memcpy(irb_image_at(&g->position, x, y), &p.position, 3 * sizeof(float));

@@ -142,6 +142,19 @@ static struct irb_flip_exposures exposures_of(const struct irb_image *reference)
     return exposures;
 }
 
+static void require_prepared_the_same(const struct hdr_pair *pair,
+                                      const struct irb_flip_exposures *exposures,
+                                      const struct irb_flip_scores *expected)
+{
+    struct irb_flip_scores scores;
+    struct irb_flip_reference *reference =
+        irb_flip_reference_create(&pair->reference, exposures, IRB_FLIP_PPD, 2, &err);
+    REQUIRE_OK(reference != NULL);
+    REQUIRE_OK(irb_flip_hdr_prepared(&pair->test, reference, NULL, 2, NULL, &scores, &err));
+    assert_memory_equal(&scores, expected, sizeof scores);
+    irb_flip_reference_destroy(reference);
+}
+
 static struct irb_flip_scores hdr_scores(int width, int height, double *seconds)
 {
     struct hdr_pair pair = hdr(width, height);
@@ -151,6 +164,7 @@ static struct irb_flip_scores hdr_scores(int width, int height, double *seconds)
     REQUIRE_OK(irb_flip_hdr(&pair.test, &pair.reference, NULL, &exposures, IRB_FLIP_PPD, 0, NULL,
                             &scores, &err));
     *seconds = irb_clock_s() - start;
+    require_prepared_the_same(&pair, &exposures, &scores);
     print_message("%d x %d: mean %.6f weighted median %.6f min %.6f max %.6f, exposures %.4f to "
                   "%.4f in %d: %.0f ms\n",
                   width, height, scores.mean, scores.weighted_median, scores.min, scores.max,
@@ -265,6 +279,35 @@ static void threads_do_not_matter(void **state)
         irb_image_destroy(&map[i]);
     irb_image_destroy(&t);
     irb_image_destroy(&r);
+}
+
+/* One reference, several test images and threads, its image gone: the maps of irb_flip_hdr. */
+static void a_prepared_reference_gives_the_same_bits(void **state)
+{
+    (void)state;
+    struct irb_image r = noise(83, 61, 1), t[2] = {noise(83, 61, 2), noise(83, 61, 3)};
+    struct irb_image small = noise(82, 61, 1), map, expected[2];
+    struct irb_flip_exposures exposures = {-3, 2, 5}, broken = {NAN, 2, 5};
+    struct irb_flip_scores s, expected_scores[2];
+    struct irb_flip_reference *p = irb_flip_reference_create(&r, &exposures, 40, 3, &err);
+    REQUIRE_OK(p != NULL);
+    for (int i = 0; i < 2; i++)
+        REQUIRE_OK(irb_flip_hdr(&t[i], &r, NULL, &exposures, 40, 1, &expected[i],
+                                &expected_scores[i], &err));
+    assert_null(irb_flip_reference_create(&r, &broken, 40, 1, &err));
+    assert_null(irb_flip_reference_create(&r, &exposures, 0, 1, &err));
+    irb_image_destroy(&r);
+    for (int i = 0; i < 4; i++) {
+        REQUIRE_OK(irb_flip_hdr_prepared(&t[i % 2], p, NULL, i, &map, &s, &err));
+        assert_memory_equal(map.data, expected[i % 2].data, 83 * 61 * sizeof(float));
+        assert_memory_equal(&s, &expected_scores[i % 2], sizeof s);
+        irb_image_destroy(&map);
+    }
+    assert_false(irb_flip_hdr_prepared(&small, p, NULL, 1, &map, &s, &err));
+    irb_flip_reference_destroy(p);
+    struct irb_image *all[] = {&small, &t[0], &t[1], &expected[0], &expected[1]};
+    for (int i = 0; i < 5; i++)
+        irb_image_destroy(all[i]);
 }
 
 /* The map is the largest of the exposures' maps; the exposure map says of which. */
@@ -435,6 +478,7 @@ int main(void)
         cmocka_unit_test(pixels_agree_with_brute_force),
         cmocka_unit_test(identical_images_give_zero),
         cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(a_prepared_reference_gives_the_same_bits),
         cmocka_unit_test(hdr_is_the_maximum_over_exposures),
         cmocka_unit_test(masks_choose_pixels),
         cmocka_unit_test(black_pixels_do_not_set_exposures),
