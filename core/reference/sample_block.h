@@ -9,7 +9,7 @@
 #include "core/reference/vec3.h"
 #include "core/sampling/sobol.h"
 
-enum { SAMPLE_BLOCK = 8 };
+enum { SAMPLE_BLOCK = 16 };
 
 struct point_block {
     float x[SAMPLE_BLOCK], y[SAMPLE_BLOCK], z[SAMPLE_BLOCK];

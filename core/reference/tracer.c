@@ -94,50 +94,68 @@ void *irb_tracer_embree_scene(const struct irb_tracer *tracer)
     return tracer->scene;
 }
 
-static void record(struct trace_recording *recording, struct vec3 origin, struct vec3 direction,
-                   float near, float far, bool occlusion)
+static void record(struct trace_recording *recording, const struct trace_ray *rays, int count,
+                   bool occlusion)
 {
-    if (recording->count < recording->capacity)
-        recording->records[recording->count++] =
-            (struct trace_record){origin, direction, near, far, occlusion};
+    for (int i = 0; i < count && recording->count < recording->capacity; i++) {
+        recording->rays[recording->count] = rays[i];
+        recording->occlusion[recording->count++] = occlusion;
+    }
 }
 
-bool trace_closest(struct trace_context *context, struct vec3 origin, struct vec3 direction,
-                   float near, float far, struct trace_hit *hit)
+/* Field by field: a whole struct would be copied by loads that are wider than the stores before
+ * them, for which the processor has to wait. */
+static inline void fill_ray(struct RTCRay *out, const struct trace_ray *ray)
 {
-    struct RTCIntersectContext embree;
-    rtcInitIntersectContext(&embree);
-    struct RTCRayHit query;
-    query.ray = (struct RTCRay){
-        .org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = near,
-        .dir_x = direction.x, .dir_y = direction.y, .dir_z = direction.z,
-        .tfar = far, .mask = ~0u,
-    };
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    context->rays++;
-    if (__builtin_expect(context->recording != NULL, 0))
-        record(context->recording, origin, direction, near, far, false);
-    rtcIntersect1(context->tracer->scene, &embree, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return false;
-    *hit = (struct trace_hit){query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
-    return true;
+    out->org_x = ray->origin.x;
+    out->org_y = ray->origin.y;
+    out->org_z = ray->origin.z;
+    out->tnear = ray->near;
+    out->dir_x = ray->direction.x;
+    out->dir_y = ray->direction.y;
+    out->dir_z = ray->direction.z;
+    out->time = 0;
+    out->tfar = ray->far;
+    out->mask = ~0u;
+    out->id = 0;
+    out->flags = 0;
 }
 
-bool trace_occluded(struct trace_context *context, struct vec3 origin, struct vec3 direction,
-                    float near, float far)
+void trace_closest(struct trace_context *context, const struct trace_ray *rays, int count,
+                   struct trace_hit *hits)
 {
     struct RTCIntersectContext embree;
+    RTCScene scene = context->tracer->scene;
     rtcInitIntersectContext(&embree);
-    struct RTCRay ray = {
-        .org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = near,
-        .dir_x = direction.x, .dir_y = direction.y, .dir_z = direction.z,
-        .tfar = far, .mask = ~0u,
-    };
-    context->rays++;
-    if (__builtin_expect(context->recording != NULL, 0))
-        record(context->recording, origin, direction, near, far, true);
-    rtcOccluded1(context->tracer->scene, &embree, &ray);
-    return ray.tfar < 0; /* Embree sets -inf where something is in the way */
+    context->rays += (uint64_t)count;
+    if (context->recording)
+        record(context->recording, rays, count, false);
+    for (int i = 0; i < count; i++) {
+        struct RTCRayHit query;
+        fill_ray(&query.ray, &rays[i]);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.primID = TRACE_MISS; /* left alone where nothing is hit */
+        rtcIntersect1(scene, &embree, &query);
+        hits[i].t = query.ray.tfar;
+        hits[i].u = query.hit.u;
+        hits[i].v = query.hit.v;
+        hits[i].triangle = query.hit.primID;
+    }
+}
+
+void trace_occluded(struct trace_context *context, const struct trace_ray *rays, int count,
+                    bool *occluded)
+{
+    struct RTCIntersectContext embree;
+    RTCScene scene = context->tracer->scene;
+    rtcInitIntersectContext(&embree);
+    context->rays += (uint64_t)count;
+    if (context->recording)
+        record(context->recording, rays, count, true);
+    for (int i = 0; i < count; i++) {
+        struct RTCRay ray;
+        fill_ray(&ray, &rays[i]);
+        rtcOccluded1(scene, &embree, &ray);
+        occluded[i] = ray.tfar < 0; /* Embree sets -inf where something is in the way */
+    }
 }

@@ -9,16 +9,26 @@
 #include "core/reference/surface.h"
 #include "core/reference/vec3.h"
 
-/* A ray as it was traced; recorded for the benchmark, which traces the same rays in a bare loop. */
-struct trace_record {
-    struct vec3 origin, direction;
-    float near, far;
-    bool occlusion;
+/* Directions need not be unit: distances count in their length. */
+struct trace_ray {
+    struct vec3 origin;
+    float near;
+    struct vec3 direction;
+    float far;
 };
 
+#define TRACE_MISS UINT32_MAX
+
+struct trace_hit {
+    float t, u, v;
+    uint32_t triangle; /* TRACE_MISS: nothing was hit, the rest is undefined */
+};
+
+/* Rays as they were traced, for the benchmark, which traces the same in a bare loop. */
 struct trace_recording {
-    struct trace_record *records; /* owned by the caller */
-    size_t count, capacity;       /* further rays are not recorded */
+    struct trace_ray *rays; /* owned by the caller, like occlusion */
+    bool *occlusion;
+    size_t count, capacity; /* further rays are not recorded */
 };
 
 /* One thread's view of the tracer. */
@@ -29,17 +39,12 @@ struct trace_context {
     struct trace_recording *recording; /* NULL but in the benchmark */
 };
 
-struct trace_hit {
-    float t, u, v;
-    uint32_t triangle;
-};
-
-/* Nearest hit in (near, far); directions need not be unit, t counts in their length. */
-bool trace_closest(struct trace_context *context, struct vec3 origin, struct vec3 direction,
-                   float near, float far, struct trace_hit *hit);
-/* Whether anything lies in (near, far). */
-bool trace_occluded(struct trace_context *context, struct vec3 origin, struct vec3 direction,
-                    float near, float far);
+/* Nearest hit of each ray in (near, far). */
+void trace_closest(struct trace_context *context, const struct trace_ray *rays, int count,
+                   struct trace_hit *hits);
+/* Whether anything lies in (near, far) of each ray. */
+void trace_occluded(struct trace_context *context, const struct trace_ray *rays, int count,
+                    bool *occluded);
 
 const struct surface_set *irb_tracer_surfaces(const struct irb_tracer *tracer);
 /* The RTCScene, for the benchmark's bare loop. */
