@@ -114,7 +114,7 @@ bool irb_flip_filters_init(struct irb_flip_filters *f, double ppd)
 }
 
 /* Pixels that are filtered together, their sums in registers. */
-enum { LANES = 8, VECTORS = 2, BLOCK = LANES * VECTORS };
+enum { LANES = 4, VECTORS = 4, BLOCK = LANES * VECTORS };
 typedef float vec __attribute__((vector_size(LANES * sizeof(float))));
 
 /* Rows are not aligned. */
