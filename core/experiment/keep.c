@@ -25,14 +25,14 @@ static void destroy_maps(struct maps *maps)
     irb_image_destroy(&maps->flip_full);
 }
 
-static bool flip_map(const struct irb_pair *pair, bool lit,
-                     const struct irb_flip_exposures *exposures, struct irb_image *map,
-                     struct irb_error *err)
+/* Zero where the sequence is black and FLIP is not defined. */
+static bool flip_map(const struct irb_pair *pair, const struct irb_flip_reference *reference,
+                     struct irb_image *map, struct irb_error *err)
 {
     struct irb_flip_scores scores;
-    if (!lit)
+    if (!reference)
         return irb_image_create(map, pair->test->width, pair->test->height, 1, err);
-    return irb_flip_hdr(pair->test, pair->reference, pair->mask, exposures, IRB_FLIP_PPD, 1, map, &scores, err);
+    return irb_flip_hdr_prepared(pair->test, reference, pair->mask, 1, map, &scores, err);
 }
 
 /* On one thread: the trials are what runs in parallel. */
@@ -44,9 +44,8 @@ static bool make_maps(struct maps *maps, const struct irb_scored_frame *frame,
     struct irb_pair full = {&frame->full, &target->full, target->mask};
     *maps = (struct maps){0};
     return irb_relmse_map(&indirect, constants->eps_indirect, &maps->relmse, err) &&
-           flip_map(&indirect, constants->indirect_lit, &constants->flip_indirect,
-                    &maps->flip_indirect, err) &&
-           flip_map(&full, constants->full_lit, &constants->flip_full, &maps->flip_full, err);
+           flip_map(&indirect, target->flip_indirect, &maps->flip_indirect, err) &&
+           flip_map(&full, target->flip_full, &maps->flip_full, err);
 }
 
 static bool write_exr(const char *path, const struct irb_run *run,
@@ -159,7 +158,9 @@ static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted,
         return true;
     if (!irb_target_load(&kept.target, keep->run, keep->sequence, frame, keep->constants, err))
         return false;
-    bool ok = irb_parallel_for(count, keep->run->options->threads, keep_one, &kept);
+    int threads = keep->run->options->threads;
+    bool ok = irb_target_prepare_flip(&kept.target, keep->constants, threads, err) &&
+              irb_parallel_for(count, threads, keep_one, &kept);
     for (int t = 0; !ok && t < keep->trial_count; t++)
         if (errs[t].code != IRB_E_OK && err)
             *err = errs[t];

@@ -60,18 +60,17 @@ static struct irb_error_scores score_image(const struct irb_pair *pair, double e
     return scores;
 }
 
-static bool score_flip(const struct irb_pair *pair, bool lit,
-                       const struct irb_flip_exposures *exposures, double *value,
-                       struct irb_error *err)
+/* reference NULL: a black sequence, for which FLIP is not defined. */
+static bool score_flip(const struct irb_pair *pair, const struct irb_flip_reference *reference,
+                       double *value, struct irb_error *err)
 {
-    if (!lit)
-        return true;
     struct irb_flip_scores scores;
     /* one thread: the trials are what runs in parallel */
-    if (!irb_flip_hdr(pair->test, pair->reference, pair->mask, exposures, IRB_FLIP_PPD, 1, NULL,
-                      &scores, err))
+    if (reference &&
+        !irb_flip_hdr_prepared(pair->test, reference, pair->mask, 1, NULL, &scores, err))
         return false;
-    *value = scores.mean;
+    if (reference)
+        *value = scores.mean;
     return true;
 }
 
@@ -165,9 +164,8 @@ bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_con
                     NULL, &v[IRB_METRIC_claim_energy_ratio]);
     v[IRB_METRIC_reference_noise] = target->noise_relmse;
     scores->present =
-        score_flip(&indirect, c->indirect_lit, &c->flip_indirect, &v[IRB_METRIC_indirect_flip],
-                   err) &&
-        score_flip(&full, c->full_lit, &c->flip_full, &v[IRB_METRIC_full_flip], err) &&
+        score_flip(&indirect, target->flip_indirect, &v[IRB_METRIC_indirect_flip], err) &&
+        score_flip(&full, target->flip_full, &v[IRB_METRIC_full_flip], err) &&
         (!previous || score_temporal(v, context, &indirect, &full, previous, err));
     return scores->present;
 }

@@ -112,7 +112,8 @@ static bool anything_missing(const struct scoring *s, int frame)
 
 static bool score_one_frame(struct scoring *s, struct irb_error *err)
 {
-    if (!load_targets(s, err))
+    if (!load_targets(s, err) ||
+        !irb_target_prepare_flip(&s->target, &s->constants, s->run->options->threads, err))
         return false;
     if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
         for (int t = 0; t < s->trial_count; t++)
@@ -120,6 +121,7 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
                 *err = s->trials[t].err;
         return false;
     }
+    irb_target_drop_flip(&s->target);
     irb_target_destroy(&s->previous_target);
     s->previous_target = s->target;
     s->target = (struct irb_target){0};

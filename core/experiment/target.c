@@ -10,8 +10,29 @@
 #include <math.h>
 #include <stdlib.h>
 
+void irb_target_drop_flip(struct irb_target *target)
+{
+    irb_flip_reference_destroy(target->flip_indirect);
+    irb_flip_reference_destroy(target->flip_full);
+    target->flip_indirect = target->flip_full = NULL;
+}
+
+bool irb_target_prepare_flip(struct irb_target *target,
+                             const struct irb_target_constants *constants, int threads,
+                             struct irb_error *err)
+{
+    if (constants->indirect_lit &&
+        !(target->flip_indirect = irb_flip_reference_create(
+              &target->indirect, &constants->flip_indirect, IRB_FLIP_PPD, threads, err)))
+        return false;
+    return !constants->full_lit ||
+           (target->flip_full = irb_flip_reference_create(&target->full, &constants->flip_full,
+                                                          IRB_FLIP_PPD, threads, err));
+}
+
 void irb_target_destroy(struct irb_target *target)
 {
+    irb_target_drop_flip(target);
     irb_gbuffer_image_destroy(&target->gbuffer);
     free(target->mask);
     irb_image_destroy(&target->direct);

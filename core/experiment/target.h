@@ -20,6 +20,8 @@ struct irb_target {
     struct irb_image full;     /* exact direct + bounce 1 */
     struct irb_image solution; /* exact direct + bounces 1..n */
     struct irb_image claim;    /* bounce 1 without visibility */
+    struct irb_flip_reference *flip_indirect, *flip_full; /* NULL until irb_target_prepare_flip, or
+                                                             where the sequence is black */
     double noise_variance;     /* mean variance of `indirect` over counted pixels */
     double noise_relmse;       /* the same relative to indirect^2 + eps: an error below it says nothing */
 };
@@ -40,6 +42,12 @@ bool irb_target_load(struct irb_target *target, const struct irb_run *run,
                      const struct irb_sequence *sequence, int frame,
                      const struct irb_target_constants *constants, struct irb_error *err);
 void irb_target_destroy(struct irb_target *target);
+
+/* FLIP's view of the references, made once for all trials: 20 bytes a pixel and exposure. */
+bool irb_target_prepare_flip(struct irb_target *target,
+                             const struct irb_target_constants *constants, int threads,
+                             struct irb_error *err);
+void irb_target_drop_flip(struct irb_target *target);
 
 bool irb_target_constants_of(struct irb_target_constants *constants, const struct irb_run *run,
                              const struct irb_sequence *sequence, struct irb_error *err);
