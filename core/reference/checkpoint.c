@@ -108,17 +108,15 @@ static bool read_slot(const struct checkpoint *checkpoint, uint32_t tile, uint32
                       struct slot_header *header, void *state)
 {
     off_t offset = slot_offset(checkpoint, tile, parity);
-    if (!read_all(checkpoint->file, header, sizeof *header, offset) ||
-        header->tile.tile != tile || header->tile.passes % 2 != parity ||
-        !read_all(checkpoint->file, state, checkpoint->state_bytes,
-                  offset + (off_t)sizeof *header))
+    if (!read_all(checkpoint->file, header, sizeof *header, offset) || header->tile.tile != tile ||
+        header->tile.passes % 2 != parity ||
+        !read_all(checkpoint->file, state, checkpoint->state_bytes, offset + (off_t)sizeof *header))
         return false;
     struct irb_key hash = slot_hash(&header->tile, state, checkpoint->state_bytes);
     return !memcmp(&hash, &header->hash, sizeof hash);
 }
 
-bool checkpoint_read(const struct checkpoint *checkpoint, struct checkpoint_tile *tile,
-                     void *state)
+bool checkpoint_read(const struct checkpoint *checkpoint, struct checkpoint_tile *tile, void *state)
 {
     if (checkpoint->file < 0)
         return false;

@@ -24,7 +24,7 @@ struct checkpoint_tile {
 };
 
 struct checkpoint {
-    int file; /* -1: no checkpoint is kept */
+    int file;           /* -1: no checkpoint is kept */
     size_t state_bytes; /* of one tile */
 };
 

@@ -5,8 +5,7 @@
 #ifndef IRB_REFERENCE_ESTIMATOR_H
 #define IRB_REFERENCE_ESTIMATOR_H
 
-#include "core/reference/light_source.h"
-#include "core/reference/sample_block.h"
+#include "core/reference/kernels.h"
 #include "core/reference/tracer.h"
 
 enum { MAX_BOUNCES = 16 };
@@ -24,7 +23,7 @@ struct estimator {
     const struct light_source *light;
     int bounces;
     bool unoccluded;
-    struct point_makers makers;
+    const struct kernels *kernels;
     double luminance[MAX_BOUNCES]; /* of each bounce, summed over all that was estimated */
 };
 

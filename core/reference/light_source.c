@@ -28,9 +28,8 @@ void light_source_prepare(struct light_source *out, const struct irb_light *ligh
         out->falloff_scale = (float)(1 / fmax(inner_range, smooth_min_width));
     if (light->falloff == IRB_FALLOFF_COSINE)
         out->falloff_scale = (float)(1 / cos_outer); /* outer is below pi/2 */
-    double size = light->type == IRB_LIGHT_SPOT
-                      ? 2 * 3.14159265358979323846 * (2 * half * half)
-                      : 4 * (double)light->half_width * light->half_width;
+    double size = light->type == IRB_LIGHT_SPOT ? 2 * 3.14159265358979323846 * (2 * half * half)
+                                                : 4 * (double)light->half_width * light->half_width;
     out->density = (float)(1 / size);
     out->dark = !isfinite(out->density) || !(out->density > 0) || !(v3_max(out->intensity) > 0);
     out->offset = SURFACE_OFFSET * v3_max_abs(out->position) + scene_offset;

@@ -13,15 +13,15 @@
 struct light_source {
     enum irb_light_type type;
     enum irb_falloff falloff;
-    bool dark;             /* no cone, beam or intensity */
+    bool dark; /* no cone, beam or intensity */
     struct vec3 position, direction, right, up;
     struct vec3 intensity; /* W/sr or W/m2 at falloff 1 */
     float cos_outer;
-    float falloff_scale;   /* SMOOTH: 1/max(0.001, cos_inner - cos_outer); COSINE: 1/cos_outer */
-    float versine;         /* 1 - cos_outer, without cancellation */
+    float falloff_scale; /* SMOOTH: 1/max(0.001, cos_inner - cos_outer); COSINE: 1/cos_outer */
+    float versine;       /* 1 - cos_outer, without cancellation */
     float half_width;
-    float density;         /* of emit(): 1/solid angle of the cone, or 1/area of the beam */
-    float offset;          /* surfaces nearer to the light than this do not block it, metres */
+    float density; /* of emit(): 1/solid angle of the cone, or 1/area of the beam */
+    float offset;  /* surfaces nearer to the light than this do not block it, metres */
 };
 
 void light_source_prepare(struct light_source *out, const struct irb_light *light,
@@ -37,24 +37,26 @@ struct light_incident {
     struct vec3 to_light;
 };
 
-static inline float light_source_falloff(const struct light_source *light, float cos_theta)
+static inline float light_source_falloff(const struct light_source *light, enum irb_falloff falloff,
+                                         float cos_theta)
 {
-    if (light->falloff == IRB_FALLOFF_SMOOTH) {
-        float s = smaller(1, (cos_theta - light->cos_outer) * light->falloff_scale);
-        return s * s;
+    if (falloff == IRB_FALLOFF_SMOOTH) {
+        float s = (cos_theta - light->cos_outer) * light->falloff_scale;
+        return smaller(1, s * s);
     }
-    return light->falloff == IRB_FALLOFF_COSINE ? cos_theta * light->falloff_scale : 1;
+    return falloff == IRB_FALLOFF_COSINE ? cos_theta * light->falloff_scale : 1;
 }
 
-/* False outside the cone or beam, and where either normal faces away. The conditions are joined
- * without branches: which of them fails can't be predicted. */
-static inline bool light_source_incident(const struct light_source *light, struct vec3 point,
-                                         struct vec3 geometric, struct vec3 shading,
-                                         struct light_incident *out)
+/* 0 outside the cone or beam, and where either normal faces away, else 1. `type` and `falloff` are
+ * the light's; as constants they leave no branch. */
+static inline int light_source_incident(const struct light_source *light, enum irb_light_type type,
+                                        enum irb_falloff falloff, struct vec3 point,
+                                        struct vec3 geometric, struct vec3 shading,
+                                        struct light_incident *out)
 {
     struct vec3 d = v3_sub(light->position, point);
-    bool inside;
-    if (light->type == IRB_LIGHT_DIRECTIONAL) {
+    int inside;
+    if (type == IRB_LIGHT_DIRECTIONAL) {
         out->to_light = v3_scale(light->direction, -1);
         out->distance = -v3_dot(d, light->direction);
         out->factor = 1;
@@ -69,7 +71,7 @@ static inline bool light_source_incident(const struct light_source *light, struc
         out->to_light = v3_scale(d, out->inverse_distance);
         cos_theta = -v3_dot(out->to_light, light->direction);
         inside = cos_theta >= light->cos_outer; /* false for r = 0, which gives NaN */
-        out->factor = light_source_falloff(light, cos_theta) * inverse2;
+        out->factor = light_source_falloff(light, falloff, cos_theta) * inverse2;
         out->density = light->density * inverse2;
     }
     out->cos_geometric = v3_dot(geometric, out->to_light);
@@ -77,8 +79,23 @@ static inline bool light_source_incident(const struct light_source *light, struc
     return inside & (out->cos_geometric > 0) & (out->cos_shading > 0);
 }
 
-/* A ray of the light: for a spot from a point of the unit disc, uniform in the cone's solid angle; for
- * a beam from a point of the unit square, uniform over the beam. */
+/* The shadow ray of a point whose rays start at `origin`: towards a spot itself, along the beam of
+ * a directional light. `far` counts in lengths of the direction. */
+static inline void light_source_shadow(const struct light_source *light, enum irb_light_type type,
+                                       const struct light_incident *incident, struct vec3 origin,
+                                       struct vec3 *direction, float *far)
+{
+    if (type == IRB_LIGHT_SPOT) {
+        *direction = v3_sub(light->position, origin);
+        *far = 1 - light->offset * incident->inverse_distance;
+    } else {
+        *direction = incident->to_light;
+        *far = incident->distance - light->offset;
+    }
+}
+
+/* A ray of the light: for a spot from a point of the unit disc, uniform in the cone's solid angle;
+ * for a beam from a point of the unit square, uniform over the beam. */
 static inline void light_source_emit(const struct light_source *light, float x, float y,
                                      struct vec3 *origin, struct vec3 *direction)
 {

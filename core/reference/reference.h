@@ -28,14 +28,14 @@
 #include <signal.h>
 
 struct irb_reference_settings {
-    int min_samples;  /* samples a pixel before the noise target is looked at; rounded up to a power
-                         of two, at least IRB_REFERENCE_BATCHES */
-    int max_samples;  /* the budget, rounded down to a power of two (but not below min_samples);
-                         the number of samples doubles until the target or the budget is met */
-    float noise;      /* target: standard error of bounce 1, root mean square over the image's
-                         pixels, relative to the image's mean; 0 = always max_samples */
-    int bounces;      /* last bounce of "rest", 1..16; 1 leaves bounce 2 and rest black */
-    bool unoccluded;  /* also render bounce 1 without visibility between bounce point and receiver */
+    int min_samples; /* samples a pixel before the noise target is looked at; rounded up to a power
+                        of two, at least IRB_REFERENCE_BATCHES */
+    int max_samples; /* the budget, rounded down to a power of two (but not below min_samples);
+                        the number of samples doubles until the target or the budget is met */
+    float noise;     /* target: standard error of bounce 1, root mean square over the image's
+                        pixels, relative to the image's mean; 0 = always max_samples */
+    int bounces;     /* last bounce of "rest", 1..16; 1 leaves bounce 2 and rest black */
+    bool unoccluded; /* also render bounce 1 without visibility between bounce point and receiver */
     int seed;
 };
 
@@ -59,14 +59,14 @@ struct irb_reference_image {
                                     there differs where normals bend */
     struct irb_image variance;   /* of the mean of bounce1's luminance, (W/m2)^2 */
     struct irb_image unoccluded_variance; /* likewise */
-    int samples;                 /* a pixel */
-    double noise;                /* reached: as settings.noise defines it */
-    double rest_remainder;       /* estimated irradiance beyond the last bounce (geometric series
-                                    through the later half), as a share of the mean of all bounces;
-                                    infinite where the series does not converge (albedo 1, closed),
-                                    NaN where bounces = 1 gives nothing to go by */
-    uint64_t rays;               /* traced for it */
-    double seconds;              /* of work, divided by the threads; of all runs of a resumed job */
+    int samples;                          /* a pixel */
+    double noise;                         /* reached: as settings.noise defines it */
+    double rest_remainder; /* estimated irradiance beyond the last bounce (geometric series
+                              through the later half), as a share of the mean of all bounces;
+                              infinite where the series does not converge (albedo 1, closed),
+                              NaN where bounces = 1 gives nothing to go by */
+    uint64_t rays;         /* traced for it */
+    double seconds;        /* of work, divided by the threads; of all runs of a resumed job */
 };
 
 void irb_reference_image_destroy(struct irb_reference_image *image);

@@ -27,13 +27,13 @@ struct render {
     struct checkpoint checkpoint;
     int width, height, columns, tiles, threads;
     uint32_t min_samples, max_samples;
-    uint32_t pass;               /* the one that runs; tiles are brought to pass + 1 */
-    uint32_t first_pass;         /* of this run */
-    struct tile_state *states;   /* one a tile */
+    uint32_t pass;                    /* the one that runs; tiles are brought to pass + 1 */
+    uint32_t first_pass;              /* of this run */
+    struct tile_state *states;        /* one a tile */
     struct checkpoint_tile *progress; /* one a tile */
-    uint32_t expected_samples;   /* a guess at where it will end, for the time left */
+    uint32_t expected_samples;        /* a guess at where it will end, for the time left */
     double start_s, start_fraction;
-    atomic_int finished;         /* tiles of this pass */
+    atomic_int finished; /* tiles of this pass */
     atomic_bool checkpoint_failed;
     _Atomic uint64_t direct_rays;
 };
@@ -61,8 +61,8 @@ static struct surface_point gbuffer_point(const struct render *r, size_t pixel)
         .geometric = v3_normalize_safe(v3_load(g->geometric.data + 3 * pixel)),
         .diffuse = v3_load(g->diffuse.data + 3 * pixel),
     };
-    point.origin = surface_offset(irb_tracer_surfaces(r->job->tracer), point.position,
-                                  point.geometric);
+    point.origin =
+        surface_offset(irb_tracer_surfaces(r->job->tracer), point.position, point.geometric);
     return point;
 }
 
@@ -90,7 +90,7 @@ static struct estimator make_estimator(const struct render *r)
         .light = &r->light,
         .bounces = r->job->settings->bounces,
         .unoccluded = r->job->settings->unoccluded,
-        .makers = point_makers_choose(),
+        .kernels = kernels_choose(),
     };
 }
 
@@ -268,10 +268,11 @@ static bool check_job(const struct irb_reference_job *job, struct irb_error *err
                         MAX_BOUNCES, s->bounces);
     if (s->min_samples < 1 || s->max_samples < 1 || s->min_samples > 1 << 20 ||
         s->max_samples > 1 << 20 || !(s->noise >= 0))
-        return irb_fail(err, IRB_E_INPUT,
-                        "reference: expected samples in 1..%d and noise >= 0, found min_samples %d, "
-                        "max_samples %d, noise %g",
-                        1 << 20, s->min_samples, s->max_samples, (double)s->noise);
+        return irb_fail(
+            err, IRB_E_INPUT,
+            "reference: expected samples in 1..%d and noise >= 0, found min_samples %d, "
+            "max_samples %d, noise %g",
+            1 << 20, s->min_samples, s->max_samples, (double)s->noise);
     const struct irb_image *layers[] = {&g->position, &g->normal, &g->geometric, &g->diffuse,
                                         &g->specular};
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
@@ -309,8 +310,7 @@ static void guess_end(struct render *r)
         samples = r->max_samples;
     else if (r->out->samples)
         samples = r->out->samples * pow(r->out->noise / target, 2);
-    r->expected_samples =
-        power_of_two_above((uint32_t)fmax(fmin(samples, r->max_samples), 1));
+    r->expected_samples = power_of_two_above((uint32_t)fmax(fmin(samples, r->max_samples), 1));
     uint32_t least = samples_after(r, r->pass + 1);
     if (r->expected_samples < least)
         r->expected_samples = least;
@@ -333,7 +333,8 @@ static bool run_passes(struct render *r, struct irb_error *err)
                                 : "");
         }
         if (atomic_load(&r->checkpoint_failed) && !reported) {
-            irb_warn(r->job->log, "%s: can't be written; the reference goes on without a checkpoint",
+            irb_warn(r->job->log,
+                     "%s: can't be written; the reference goes on without a checkpoint",
                      r->job->checkpoint);
             reported = true;
         }
@@ -377,8 +378,11 @@ bool irb_reference_render(const struct irb_reference_job *job, struct irb_refere
     *out = (struct irb_reference_image){0};
     if (!check_job(job, err))
         return false;
-    struct render r = {.job = job, .out = out, .checkpoint = {.file = -1},
-                       .width = job->gbuffer->width, .height = job->gbuffer->height};
+    struct render r = {.job = job,
+                       .out = out,
+                       .checkpoint = {.file = -1},
+                       .width = job->gbuffer->width,
+                       .height = job->gbuffer->height};
     r.columns = (r.width + TILE - 1) / TILE;
     r.tiles = r.columns * ((r.height + TILE - 1) / TILE);
     r.threads = job->threads > 0 ? job->threads : irb_core_count();

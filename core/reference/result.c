@@ -26,9 +26,13 @@ static void list_layers(const struct irb_reference_image *image, struct irb_exr_
 
 static void list_images(struct irb_reference_image *image, struct irb_image *out[LAYERS])
 {
-    struct irb_image *images[LAYERS] = {
-        &image->direct,     &image->bounce1,  &image->bounce2,            &image->rest,
-        &image->unoccluded, &image->variance, &image->unoccluded_variance};
+    struct irb_image *images[LAYERS] = {&image->direct,
+                                        &image->bounce1,
+                                        &image->bounce2,
+                                        &image->rest,
+                                        &image->unoccluded,
+                                        &image->variance,
+                                        &image->unoccluded_variance};
     for (int i = 0; i < LAYERS; i++)
         out[i] = images[i];
 }
@@ -69,9 +73,9 @@ bool irb_reference_image_save(const struct irb_reference_image *image, const cha
     snprintf(rays, sizeof rays, "%" PRIu64, image->rays);
     snprintf(seconds, sizeof seconds, "%.17g", image->seconds);
     const struct irb_exr_attribute attributes[ATTRIBUTES] = {
-        {"irbench.samples", samples}, {"irbench.noise", noise},
+        {"irbench.samples", samples},          {"irbench.noise", noise},
         {"irbench.rest_remainder", remainder}, {"irbench.rays", rays},
-        {"irbench.seconds", seconds}, {"irbench.key", key ? key : ""},
+        {"irbench.seconds", seconds},          {"irbench.key", key ? key : ""},
     };
     return irb_exr_write(path, layers, LAYERS, attributes, ATTRIBUTES, IRB_EXR_ZIP, err);
 }
@@ -91,12 +95,14 @@ static bool parse(const char *path, const struct irb_exr_value *value, double *o
 static bool load_attributes(struct irb_reference_image *image, const char *path,
                             struct irb_error *err)
 {
-    struct irb_exr_value values[] = {{"irbench.samples", ""},        {"irbench.noise", ""},
-                                     {"irbench.rest_remainder", ""}, {"irbench.rays", ""},
+    struct irb_exr_value values[] = {{"irbench.samples", ""},
+                                     {"irbench.noise", ""},
+                                     {"irbench.rest_remainder", ""},
+                                     {"irbench.rays", ""},
                                      {"irbench.seconds", ""}};
     double samples, rays;
-    if (!irb_exr_read_attributes(path, values, 5, err) ||
-        !parse(path, &values[0], &samples, err) || !parse(path, &values[1], &image->noise, err) ||
+    if (!irb_exr_read_attributes(path, values, 5, err) || !parse(path, &values[0], &samples, err) ||
+        !parse(path, &values[1], &image->noise, err) ||
         !parse(path, &values[2], &image->rest_remainder, err) ||
         !parse(path, &values[3], &rays, err) || !parse(path, &values[4], &image->seconds, err))
         return false;

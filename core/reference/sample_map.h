@@ -8,21 +8,21 @@
 
 #include "core/reference/vec3.h"
 
-/* sin and cos of 2 pi t for t in [-1/2, 1/2], within 2e-7: Taylor series for half the angle (the next
- * terms are below 6e-8 and 7e-9), then doubled. The same bits with every libm, and no branch. */
+/* sin and cos of 2 pi t for t in [-1/2, 1/2], within 2e-7: Taylor series for half the angle (the
+ * next terms are below 6e-8 and 7e-9), then doubled. The same bits with every libm, and no branch.
+ */
 static inline void sincos_turn(float t, float *s, float *c)
 {
     float a = 3.14159265358979323846f * t, a2 = a * a;
-    float half_s = 1 + a2 * (-1.0f / 6 +
-                             a2 * (1.0f / 120 +
-                                   a2 * (-1.0f / 5040 +
-                                         a2 * (1.0f / 362880 - a2 * (1.0f / 39916800)))));
-    float half_c = 1 + a2 * (-1.0f / 2 +
-                             a2 * (1.0f / 24 +
-                                   a2 * (-1.0f / 720 +
-                                         a2 * (1.0f / 40320 +
-                                               a2 * (-1.0f / 3628800 +
-                                                     a2 * (1.0f / 479001600))))));
+    float half_s =
+        1 +
+        a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 +
+                                                   a2 * (1.0f / 362880 - a2 * (1.0f / 39916800)))));
+    float half_c =
+        1 + a2 * (-1.0f / 2 +
+                  a2 * (1.0f / 24 +
+                        a2 * (-1.0f / 720 + a2 * (1.0f / 40320 + a2 * (-1.0f / 3628800 +
+                                                                       a2 * (1.0f / 479001600))))));
     half_s *= a;
     *s = 2 * half_s * half_c;
     *c = half_c * half_c - half_s * half_s;

@@ -36,8 +36,8 @@ static bool is_flat(const struct surface_detail *detail, struct vec3 geometric)
 {
     for (int i = 0; i < 3; i++) {
         struct vec3 n = detail->normal[i];
-        struct vec3 difference = v3_sub(n, v3_dot(n, geometric) < 0 ? v3_scale(geometric, -1)
-                                                                    : geometric);
+        struct vec3 difference =
+            v3_sub(n, v3_dot(n, geometric) < 0 ? v3_scale(geometric, -1) : geometric);
         if (v3_dot(n, n) > 0 && v3_dot(difference, difference) > flat_tolerance)
             return false;
     }
@@ -173,8 +173,8 @@ struct vec3 surface_texture_sample(const struct surface_set *set, int texture, f
             t->rgba + 4 * ((size_t)wrap(y0 + dy, t->height) * (size_t)t->width +
                            (size_t)wrap(x0 + dx, t->width));
         float weight = (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy);
-        sum = v3_mad(sum, weight,
-                     v3(set->srgb[texel[0]], set->srgb[texel[1]], set->srgb[texel[2]]));
+        sum =
+            v3_mad(sum, weight, v3(set->srgb[texel[0]], set->srgb[texel[1]], set->srgb[texel[2]]));
     }
     return sum;
 }

@@ -41,9 +41,9 @@ struct surface_set {
     struct surface_texture *textures;
     uint32_t triangle_count;
     int texture_count;
-    float srgb[256];      /* decoded 8-bit values */
-    float offset;         /* SURFACE_OFFSET times the scene's diagonal, metres */
-    struct irb_key key;   /* of all that is traced */
+    float srgb[256];    /* decoded 8-bit values */
+    float offset;       /* SURFACE_OFFSET times the scene's diagonal, metres */
+    struct irb_key key; /* of all that is traced */
 };
 
 bool surface_set_create(struct surface_set *set, const struct irb_scene *scene,
@@ -82,26 +82,40 @@ static inline void surface_detail_at(const struct surface_set *set,
     if (d->texture >= 0) {
         float s = w * d->texcoord[0][0] + u * d->texcoord[1][0] + v * d->texcoord[2][0];
         float t = w * d->texcoord[0][1] + u * d->texcoord[1][1] + v * d->texcoord[2][1];
-        point->diffuse =
-            v3_mul(point->diffuse, surface_texture_sample(set, d->texture, s, t));
+        point->diffuse = v3_mul(point->diffuse, surface_texture_sample(set, d->texture, s, t));
     }
+}
+
+/* Position, albedo and the winding's normal, without side, of a point of a triangle. */
+static inline void surface_load(const struct surface_set *set, uint32_t index, float u, float v,
+                                struct surface_point *point)
+{
+    const struct surface_triangle *triangle = &set->triangles[index];
+    struct vec3 position = v3_scale(triangle->vertex[0], 1 - u - v);
+    position = v3_mad(position, u, triangle->vertex[1]);
+    point->position = v3_mad(position, v, triangle->vertex[2]);
+    point->geometric = triangle->geometric;
+    point->diffuse = triangle->diffuse;
+}
+
+/* Turns the geometric normal against `direction`, and sets the origin of rays. */
+static inline void surface_face(float offset, struct vec3 direction, struct surface_point *point)
+{
+    float side = copysignf(1, -v3_dot(point->geometric, direction));
+    point->geometric = v3_scale(point->geometric, side);
+    float distance = SURFACE_OFFSET * v3_max_abs(point->position) + offset;
+    point->origin = v3_mad(point->position, distance, point->geometric);
 }
 
 /* The point with barycentrics (u, v) of a triangle, on the side that faces against `direction`. */
 static inline void surface_at(const struct surface_set *set, uint32_t index, float u, float v,
                               struct vec3 direction, struct surface_point *point)
 {
-    const struct surface_triangle *triangle = &set->triangles[index];
-    struct vec3 position = v3_scale(triangle->vertex[0], 1 - u - v);
-    position = v3_mad(position, u, triangle->vertex[1]);
-    point->position = v3_mad(position, v, triangle->vertex[2]);
-    float side = copysignf(1, -v3_dot(triangle->geometric, direction));
-    point->geometric = v3_scale(triangle->geometric, side);
+    surface_load(set, index, u, v, point);
+    surface_face(set->offset, direction, point);
     point->shading = point->geometric;
-    point->diffuse = triangle->diffuse;
-    if (triangle->detail >= 0)
-        surface_detail_at(set, triangle, u, v, point);
-    point->origin = surface_offset(set, point->position, point->geometric);
+    if (set->triangles[index].detail >= 0)
+        surface_detail_at(set, &set->triangles[index], u, v, point);
 }
 
 #endif

@@ -36,10 +36,15 @@ static bool bare_loop(void *user, int index, int thread)
     unsigned long hits = 0;
     for (size_t i = 0; i < recording->count; i++) {
         const struct trace_ray *r = &recording->rays[i];
-        struct RTCRayHit query = {.ray = {.org_x = r->origin.x, .org_y = r->origin.y,
-                                          .org_z = r->origin.z, .tnear = r->near,
-                                          .dir_x = r->direction.x, .dir_y = r->direction.y,
-                                          .dir_z = r->direction.z, .tfar = r->far, .mask = ~0u}};
+        struct RTCRayHit query = {.ray = {.org_x = r->origin.x,
+                                          .org_y = r->origin.y,
+                                          .org_z = r->origin.z,
+                                          .tnear = r->near,
+                                          .dir_x = r->direction.x,
+                                          .dir_y = r->direction.y,
+                                          .dir_z = r->direction.z,
+                                          .tfar = r->far,
+                                          .mask = ~0u}};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         if (recording->occlusion[i]) {
             rtcOccluded1(bare->scene, &context, &query.ray);
@@ -83,7 +88,7 @@ static bool shade(void *user, int index, int thread)
                   .recording = s->recordings ? &s->recordings[index] : NULL},
         .light = &s->light,
         .bounces = s->fixture->settings.bounces,
-        .makers = point_makers_choose(),
+        .kernels = kernels_choose(),
     };
     size_t pixels = irb_image_pixels(&s->fixture->gbuffer.position);
     for (size_t i = (size_t)index; i < pixels; i += (size_t)s->threads) {
@@ -140,7 +145,8 @@ static bool measure(struct fixture *fixture, int samples)
     irb_parallel_for(threads, threads, shade, &shading);
     unsigned long rays = atomic_exchange(&shading.rays, 0);
     shading.recordings = NULL;
-    struct bare bare = {.recordings = recordings, .scene = irb_tracer_embree_scene(fixture->tracer)};
+    struct bare bare = {.recordings = recordings,
+                        .scene = irb_tracer_embree_scene(fixture->tracer)};
     bool complete = true;
     for (int i = 0; i < threads; i++)
         complete &= recordings[i].count < recordings[i].capacity;

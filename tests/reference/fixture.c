@@ -24,8 +24,8 @@ void fixture_create(struct fixture *fixture, struct irb_scene *scene)
     fixture->settings.min_samples = fixture->settings.max_samples = 64;
     fixture->settings.noise = 0;
     fixture->settings.bounces = 1;
-    fixture->camera = (struct irb_camera){.target = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov = 1,
-                                          .z_near = 0.01f, .z_far = 100};
+    fixture->camera = (struct irb_camera){
+        .target = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov = 1, .z_near = 0.01f, .z_far = 100};
 }
 
 void fixture_destroy(struct fixture *fixture)
@@ -102,8 +102,8 @@ static void look_at_pixel(struct fixture *fixture, struct trace_context *context
     struct irb_gbuffer_image *g = &fixture->gbuffer;
     struct trace_hit hit;
     struct surface_point p;
-    struct trace_ray ray = {.origin = v3_load(fixture->camera.position), .direction = direction,
-                            .far = INFINITY};
+    struct trace_ray ray = {
+        .origin = v3_load(fixture->camera.position), .direction = direction, .far = INFINITY};
     trace_closest(context, &ray, 1, &hit);
     if (hit.triangle == TRACE_MISS)
         return;
@@ -137,8 +137,7 @@ void fixture_look(struct fixture *fixture, int width, int height)
     }
 }
 
-bool fixture_render(struct fixture *fixture, struct irb_reference_image *out,
-                    struct irb_error *err)
+bool fixture_render(struct fixture *fixture, struct irb_reference_image *out, struct irb_error *err)
 {
     struct irb_reference_job job = {
         .tracer = fixture->tracer,
@@ -172,6 +171,7 @@ double fixture_rmse(const struct irb_image *a, const struct irb_image *b)
     double sum = 0;
     size_t count = irb_image_pixels(a) * (size_t)a->channels;
     for (size_t i = 0; i < count; i++)
-        sum += ((double)a->data[i] - (double)b->data[i]) * ((double)a->data[i] - (double)b->data[i]);
+        sum +=
+            ((double)a->data[i] - (double)b->data[i]) * ((double)a->data[i] - (double)b->data[i]);
     return sqrt(sum / (double)count);
 }

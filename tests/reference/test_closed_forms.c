@@ -52,8 +52,7 @@ static void squares_grid(struct fixture *f, int size)
     fixture_gbuffer(f, size, size);
     for (int y = 0; y < size; y++)
         for (int x = 0; x < size; x++)
-            fixture_point(f, x, y,
-                          (double[]){(x + 0.5) / size - 0.5, 1, (y + 0.5) / size - 0.5},
+            fixture_point(f, x, y, (double[]){(x + 0.5) / size - 0.5, 1, (y + 0.5) / size - 0.5},
                           (double[]){0, -1, 0});
 }
 

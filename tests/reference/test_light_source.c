@@ -3,22 +3,36 @@
  * The prepared light of the inner loop against core/scene/light.h, and its rays against the density
  * they claim.
  */
-#include "core/reference/light_source.h"
-#include "core/reference/sample_block.h"
+#include "core/reference/kernels.h"
 #include "core/reference/sample_map.h"
 #include "tests/support/compare.h"
 
 #include <string.h>
 
 static const struct irb_light lights[] = {
-    {.type = IRB_LIGHT_SPOT, .position = {0.1f, 0.2f, 0.3f}, .direction = {0.6f, 0, -0.8f},
-     .intensity = {1, 2, 3}, .outer = 0.7f},
-    {.type = IRB_LIGHT_SPOT, .position = {-1, 5, 2}, .direction = {0, -1, 0},
-     .intensity = {1, 2, 3}, .outer = 1.2f, .inner = 0.5f, .falloff = IRB_FALLOFF_SMOOTH},
-    {.type = IRB_LIGHT_SPOT, .position = {0, 0, 0}, .direction = {0, 0.8f, 0.6f},
-     .intensity = {4, 5, 6}, .outer = 1.0f, .falloff = IRB_FALLOFF_COSINE},
-    {.type = IRB_LIGHT_DIRECTIONAL, .position = {0, 2, 0}, .direction = {0.6f, -0.8f, 0},
-     .intensity = {7, 8, 9}, .half_width = 1.5f},
+    {.type = IRB_LIGHT_SPOT,
+     .position = {0.1f, 0.2f, 0.3f},
+     .direction = {0.6f, 0, -0.8f},
+     .intensity = {1, 2, 3},
+     .outer = 0.7f},
+    {.type = IRB_LIGHT_SPOT,
+     .position = {-1, 5, 2},
+     .direction = {0, -1, 0},
+     .intensity = {1, 2, 3},
+     .outer = 1.2f,
+     .inner = 0.5f,
+     .falloff = IRB_FALLOFF_SMOOTH},
+    {.type = IRB_LIGHT_SPOT,
+     .position = {0, 0, 0},
+     .direction = {0, 0.8f, 0.6f},
+     .intensity = {4, 5, 6},
+     .outer = 1.0f,
+     .falloff = IRB_FALLOFF_COSINE},
+    {.type = IRB_LIGHT_DIRECTIONAL,
+     .position = {0, 2, 0},
+     .direction = {0.6f, -0.8f, 0},
+     .intensity = {7, 8, 9},
+     .half_width = 1.5f},
 };
 enum { LIGHTS = sizeof lights / sizeof *lights };
 
@@ -39,7 +53,7 @@ static void test_same_radiometry(void **state)
                                &distance);
             struct vec3 l = v3_load(to_light);
             struct light_incident incident;
-            if (!light_source_incident(&source, p, l, l, &incident)) {
+            if (!light_source_incident(&source, source.type, source.falloff, p, l, l, &incident)) {
                 REQUIRE_NEAR(expected[0], 0, 0);
                 continue;
             }
@@ -60,22 +74,22 @@ static void test_rays_carry_the_power(void **state)
     (void)state;
     enum { RAYS = 4096 };
     struct irb_sobol_set set = irb_sobol_seed(3, 0);
-    struct point_makers makers = point_makers_choose();
+    const struct kernels *kernels = kernels_choose();
     for (int k = 0; k < LIGHTS; k++) {
         struct light_source source;
         double sum = 0, watts[3];
         bool spot = lights[k].type == IRB_LIGHT_SPOT;
         light_source_prepare(&source, &lights[k], 0);
-        for (uint32_t i = 0; i < RAYS; i += SAMPLE_BLOCK) {
-            struct point_block block;
-            (spot ? makers.disc : makers.square)(&set, i, &block);
-            for (int s = 0; s < SAMPLE_BLOCK; s++) {
+        for (uint32_t i = 0; i < RAYS; i += LANES) {
+            struct lanes3 block;
+            (spot ? kernels->disc : kernels->square)(&set, i, &block);
+            for (int s = 0; s < LANES; s++) {
                 struct vec3 origin, direction;
                 light_source_emit(&source, block.x[s], block.y[s], &origin, &direction);
                 REQUIRE_NEAR(v3_dot(direction, direction), 1, 2e-6);
                 float cosine = v3_dot(direction, source.direction);
                 REQUIRE_CMP(cosine, >, source.cos_outer - 1e-6f);
-                sum += spot ? (double)light_source_falloff(&source, cosine) : 1.0;
+                sum += spot ? (double)light_source_falloff(&source, source.falloff, cosine) : 1.0;
             }
         }
         irb_light_power(&lights[k], watts);
@@ -108,12 +122,12 @@ static void test_cosine_directions(void **state)
     (void)state;
     enum { COUNT = 4096 };
     struct irb_sobol_set set = irb_sobol_seed(4, 1);
-    struct point_makers makers = point_makers_choose();
+    const struct kernels *kernels = kernels_choose();
     double cosine = 0, x2 = 0, xy = 0;
-    for (uint32_t i = 0; i < COUNT; i += SAMPLE_BLOCK) {
-        struct point_block b;
-        makers.direction(&set, i, &b);
-        for (int s = 0; s < SAMPLE_BLOCK; s++) {
+    for (uint32_t i = 0; i < COUNT; i += LANES) {
+        struct lanes3 b;
+        kernels->cosine(&set, i, &b);
+        for (int s = 0; s < LANES; s++) {
             float x, y;
             irb_sobol_2d(&set, i + (uint32_t)s, &x, &y);
             struct vec3 d = map_to_cosine(x, y); /* one at a time: the same bits */
@@ -133,7 +147,7 @@ static void test_cosine_directions(void **state)
 static void test_basis_is_orthonormal(void **state)
 {
     (void)state;
-    static const float normals[][3] = {{0, 0, 1},  {0, 0, -1},        {1, 0, 0},
+    static const float normals[][3] = {{0, 0, 1},  {0, 0, -1},       {1, 0, 0},
                                        {0, -1, 0}, {0.6f, 0, -0.8f}, {1e-4f, 0, -1}};
     for (size_t i = 0; i < sizeof normals / sizeof *normals; i++) {
         struct vec3 n = v3_load(normals[i]), s, t;

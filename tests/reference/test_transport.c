@@ -9,7 +9,8 @@
 
 static const float grey[3] = {0.5f, 0.5f, 0.5f};
 
-/* A square of the plane y = height, half side `half`. Two-sided, so its winding is of no account. */
+/* A square of the plane y = height, half side `half`. Two-sided, so its winding is of no account.
+ */
 static void level_square(struct irb_builder *builder, double x, double height, double half)
 {
     const double corners[4][3] = {{x - half, height, half},
@@ -127,18 +128,19 @@ static void require_all_finite(const struct irb_reference_image *out)
     assert_true(isfinite(out->noise));
 }
 
-/* Lights on, in and behind geometry, at a shaded point, very bright and very dark, narrow and wide. */
+/* Lights on, in and behind geometry, at a shaded point, very bright and very dark, narrow and wide.
+ */
 static void test_nothing_ends_in_nan(void **state)
 {
     (void)state;
     static const struct {
         double position[3], target[3], angle, intensity;
     } cases[] = {
-        {{0.278, 0.5488, 0.2796}, {0.278, 0, 0.2796}, 50, 1},  /* in the ceiling */
-        {{0.278, 0, 0.2796}, {0.278, 0.5, 0.2796}, 80, 1},     /* in the floor */
-        {{0.278, -0.1, 0.2796}, {0.278, -1, 0.2796}, 50, 1},   /* nothing to light */
-        {{0.278, 0.1, 0.3796}, {0.278, 0, 0.3796}, 89.9, 1},   /* close, wide */
-        {{0.278, 0.5, 0.2796}, {0.278, 0, 0.2796}, 1e-3, 1},   /* a pencil */
+        {{0.278, 0.5488, 0.2796}, {0.278, 0, 0.2796}, 50, 1}, /* in the ceiling */
+        {{0.278, 0, 0.2796}, {0.278, 0.5, 0.2796}, 80, 1},    /* in the floor */
+        {{0.278, -0.1, 0.2796}, {0.278, -1, 0.2796}, 50, 1},  /* nothing to light */
+        {{0.278, 0.1, 0.3796}, {0.278, 0, 0.3796}, 89.9, 1},  /* close, wide */
+        {{0.278, 0.5, 0.2796}, {0.278, 0, 0.2796}, 1e-3, 1},  /* a pencil */
         {{0.278, 0.5, 0.2796}, {0.278, 0, 0.2796}, 50, 1e6},
         {{0.278, 0.5, 0.2796}, {0.278, 0, 0.2796}, 50, 1e-6},
         {{0.278, 0.5, 0.2796}, {0.278, 0, 0.2796}, 50, 0},
@@ -238,7 +240,10 @@ static void test_millimetres_and_kilometres(void **state)
      * hence the samples, of the one wall whose normal is nearly in a coordinate plane. */
     static const struct {
         double scale, shift, tolerance;
-    } cases[] = {{0x1p-10, 0, 1e-5}, {0x1p10, 0, 1e-5}, {1e-3, 0, 5e-3}, {1e3, 0, 5e-3},
+    } cases[] = {{0x1p-10, 0, 1e-5},
+                 {0x1p10, 0, 1e-5},
+                 {1e-3, 0, 5e-3},
+                 {1e3, 0, 5e-3},
                  {1, 100, 0.01} /* 200 times the box's size away */};
     struct irb_reference_image one, out;
     render_scaled(1, 0, &one);
@@ -296,12 +301,9 @@ static void test_texture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_blocker),
-        cmocka_unit_test(test_thin_wall_lit_from_behind),
-        cmocka_unit_test(test_direct_light),
-        cmocka_unit_test(test_nothing_ends_in_nan),
-        cmocka_unit_test(test_black_scene),
-        cmocka_unit_test(test_millimetres_and_kilometres),
+        cmocka_unit_test(test_blocker),      cmocka_unit_test(test_thin_wall_lit_from_behind),
+        cmocka_unit_test(test_direct_light), cmocka_unit_test(test_nothing_ends_in_nan),
+        cmocka_unit_test(test_black_scene),  cmocka_unit_test(test_millimetres_and_kilometres),
         cmocka_unit_test(test_texture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -65,7 +65,7 @@ static void test_sobol_is_a_net(void **state)
         struct irb_sobol_set set = irb_sobol_seed(irb_hash_mix(11, n), n);
         for (int k = 0; k <= 10; k++) {
             require_net(&set, 0, k);
-            require_net(&set, 1u << k, k);       /* samples that are added later */
+            require_net(&set, 1u << k, k); /* samples that are added later */
             require_net(&set, 0x5a5u << k, k);
         }
     }
@@ -127,12 +127,9 @@ static void test_sets_are_independent(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_halton_first_values),
-        cmocka_unit_test(test_halton_stays_below_one),
-        cmocka_unit_test(test_sobol_is_a_net),
-        cmocka_unit_test(test_unscrambled_points),
-        cmocka_unit_test(test_seeds_are_uniform),
-        cmocka_unit_test(test_sets_are_independent),
+        cmocka_unit_test(test_halton_first_values), cmocka_unit_test(test_halton_stays_below_one),
+        cmocka_unit_test(test_sobol_is_a_net),      cmocka_unit_test(test_unscrambled_points),
+        cmocka_unit_test(test_seeds_are_uniform),   cmocka_unit_test(test_sets_are_independent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
