@@ -10,20 +10,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A failed allocation leaves the animation without keys, which irb_animation_validate refuses. */
-static void set_view(struct irb_animation *animation, const struct irb_light_key *light,
-                     const struct irb_camera_key *camera)
+/* Copies the keys. A failed allocation leaves the animation without keys, which
+ * irb_animation_validate refuses. */
+static void set_keys(struct irb_animation *animation, const struct irb_light_key *lights,
+                     int light_count, const struct irb_camera_key *camera)
 {
-    animation->light_keys = malloc(sizeof *light);
+    animation->light_keys = malloc((size_t)light_count * sizeof *lights);
     animation->camera_keys = malloc(sizeof *camera);
     if (!animation->light_keys || !animation->camera_keys) {
         irb_animation_destroy(animation);
         return;
     }
-    *animation->light_keys = *light;
+    memcpy(animation->light_keys, lights, (size_t)light_count * sizeof *lights);
     *animation->camera_keys = *camera;
-    animation->light_key_count = 1;
+    animation->light_key_count = light_count;
     animation->camera_key_count = 1;
+}
+
+static void set_view(struct irb_animation *animation, const struct irb_light_key *light,
+                     const struct irb_camera_key *camera)
+{
+    set_keys(animation, light, 1, camera);
 }
 
 /* Full angle in degrees whose tangent, halved, is `ratio`. */
@@ -92,6 +99,78 @@ static void furnace_view(struct irb_animation *animation)
     set_view(animation, &light, &camera);
 }
 
+/* ---- Architecture: the lights move, frames as in the keys; a longer run holds the last ---- */
+
+#define KEYS(keys) keys, sizeof(keys) / sizeof *(keys)
+
+/* A spot under the vault that wanders along the nave's floor and up its south arcade. */
+static void hall_view(struct irb_animation *animation)
+{
+    static const struct irb_light_key lights[] = {
+        {0, {-3, 11.5f, -0.5f}, {-8, 0, 1.5f}, {900, 820, 680}, 34, 0},
+        {30, {-3, 11.5f, -0.5f}, {-2, 0, 1}, {900, 820, 680}, 34, 0},
+        {60, {-3, 11.5f, -0.5f}, {3, 2, -3.5f}, {900, 820, 680}, 34, 0},
+        {90, {-3, 11.5f, -0.5f}, {-5, 5, -3.6f}, {900, 820, 680}, 34, 0},
+    };
+    static const struct irb_camera_key camera = {
+        .position = {-17.8f, 3.4f, 1.3f}, .target = {4, 6.2f, -0.6f}, .up = {0, 1, 0}, .fov = 62};
+
+    *animation = (struct irb_animation){.light_interpolation = IRB_CATMULL_ROM,
+                                        .falloff = IRB_FALLOFF_COSINE};
+    set_keys(animation, KEYS(lights), &camera);
+}
+
+/* The sun, from the morning's slanting light to noon's: 600 W/m2 of sunlight's colour, scaled. */
+static void atrium_view(struct irb_animation *animation)
+{
+    static const struct irb_light_key lights[] = {
+        {.frame = 0, {-6, 24, -7}, {0.5f, 2, 1.5f}, {10, 9.2f, 7.8f}},
+        {.frame = 45, {0, 26, -4}, {0.5f, 2, 1}, {10, 9.5f, 8.6f}},
+        {.frame = 90, {7, 24, 3}, {0.5f, 2, -0.5f}, {10, 9.2f, 7.8f}},
+    };
+    static const struct irb_camera_key camera = {
+        .position = {-9.6f, 2.1f, -1.4f}, .target = {4, 3.7f, 1.0f}, .up = {0, 1, 0}, .fov = 65};
+
+    *animation = (struct irb_animation){.light_interpolation = IRB_CATMULL_ROM,
+                                        .light_type = IRB_LIGHT_DIRECTIONAL,
+                                        .beam_half_width = 11.5f};
+    set_keys(animation, KEYS(lights), &camera);
+}
+
+/* The patch of light in the further room moves from its back wall to its floor. */
+static void doorway_view(struct irb_animation *animation)
+{
+    static const struct irb_light_key lights[] = {
+        {0, {8.6f, 2.9f, 4.4f}, {11, 1.0f, 2.1f}, {30, 26, 20}, 38, 0},
+        {45, {8.6f, 2.9f, 4.4f}, {9.6f, 0, 2.2f}, {30, 26, 20}, 38, 0},
+        {90, {8.6f, 2.9f, 4.4f}, {9.2f, 0.6f, 0}, {30, 26, 20}, 38, 0},
+    };
+    static const struct irb_camera_key camera = {.position = {0.7f, 1.65f, 1.5f},
+                                                 .target = {6.4f, 1.05f, 2.75f},
+                                                 .up = {0, 1, 0},
+                                                 .fov = 58};
+
+    *animation = (struct irb_animation){.light_interpolation = IRB_CATMULL_ROM,
+                                        .falloff = IRB_FALLOFF_COSINE};
+    set_keys(animation, KEYS(lights), &camera);
+}
+
+/* The lamp walks along the leg that the camera cannot see, towards the corner. */
+static void corridor_view(struct irb_animation *animation)
+{
+    static const struct irb_light_key lights[] = {
+        {0, {6.5f, 2.6f, 12.7f}, {0.6f, 0.9f, 12.6f}, {70, 64, 52}, 30, 0},
+        {45, {4.5f, 2.6f, 12.9f}, {0.2f, 1.3f, 12.2f}, {70, 64, 52}, 30, 0},
+        {90, {3.2f, 2.6f, 13.1f}, {1.2f, 0, 12.4f}, {70, 64, 52}, 30, 0},
+    };
+    static const struct irb_camera_key camera = {
+        .position = {1.5f, 1.6f, 3.4f}, .target = {1.15f, 1.3f, 13}, .up = {0, 1, 0}, .fov = 60};
+
+    *animation = (struct irb_animation){.light_interpolation = IRB_CATMULL_ROM,
+                                        .falloff = IRB_FALLOFF_COSINE};
+    set_keys(animation, KEYS(lights), &camera);
+}
+
 const struct irb_builtin irb_builtins[] = {
     {"cornell", "Cornell box, measured geometry, short and tall block, closed ceiling, no lamp",
      "Cornell University Program of Computer Graphics, measured data (mm, here x 1e-3); "
@@ -110,6 +189,17 @@ const struct irb_builtin irb_builtins[] = {
     {"furnace", "inside of a closed unit cube, albedo 0.5",
      "mean E after n bounces over the whole inner area = albedo^n P/A, A = 6 m2", irb_build_furnace,
      furnace_view},
+    {"hall", "cathedral: nave, aisles, crossing under a dome, apse; 40 x 17 x 30 m, stone",
+     "ours, after the kind of Sibenik's cathedral (the thesis's scene); reflectances ours",
+     irb_build_hall, hall_view},
+    {"atrium", "court between two-storey colonnades, coloured curtains, fine textures, sunlit",
+     "ours, after the kind of the Sponza palace's atrium; reflectances and textures ours",
+     irb_build_atrium, atrium_view},
+    {"doorway", "dark hall lit only through a door that is ajar",
+     "ours, after the door scene of Veach 1997; reflectances ours", irb_build_doorway,
+     doorway_view},
+    {"corridor", "L-shaped corridor, the lamp round the corner", "ours", irb_build_corridor,
+     corridor_view},
     {NULL, NULL, NULL, NULL, NULL},
 };
 

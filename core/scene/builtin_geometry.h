@@ -13,6 +13,10 @@ struct irb_scene *irb_build_cornell_objects(struct irb_error *err);
 struct irb_scene *irb_build_sphere(struct irb_error *err);
 struct irb_scene *irb_build_squares(struct irb_error *err);
 struct irb_scene *irb_build_furnace(struct irb_error *err);
+struct irb_scene *irb_build_hall(struct irb_error *err);
+struct irb_scene *irb_build_atrium(struct irb_error *err);
+struct irb_scene *irb_build_doorway(struct irb_error *err);
+struct irb_scene *irb_build_corridor(struct irb_error *err);
 
 /* A sphere of `slices` x `stacks` facets with analytic unit normals that point inwards or outwards;
  * the poles lie on the y axis. Triangles: 2 slices (stacks - 1). */
