@@ -224,7 +224,7 @@ static void doorway_wood(const struct kit *kit, struct irb_builder *builder)
 
 static void doorway_things(const struct kit *kit, struct irb_builder *builder)
 {
-    static const double ball[3] = {4.3, 0.3, 2.2}, small_ball[3] = {5.05, 0.86, 3.3};
+    static const double ball[3] = {5.3, 0.3, 1.75}, small_ball[3] = {5.05, 0.86, 3.3};
     static const double knot[3] = {6.25, 0.6, 4.6};
     struct kit shelf = kit_place(kit, 2.2, 0, DEPTH, 180), hanging;
 

@@ -195,8 +195,9 @@ static void face(const struct kit *kit, double x0, double x1, double y0, double 
     }
 }
 
-/* Sill, jambs and the arch's underside, from z = 0 to -depth. */
-static void reveal(const struct kit *kit, const struct kit_opening *opening, double depth)
+/* Jambs and the arch's underside, from z = 0 to -depth; the sill too where there is wall below. */
+static void reveal(const struct kit *kit, const struct kit_opening *opening, double depth,
+                   bool has_sill)
 {
     const double left = opening->centre - opening->radius,
                  right = opening->centre + opening->radius;
@@ -212,7 +213,8 @@ static void reveal(const struct kit *kit, const struct kit_opening *opening, dou
         kit_profile_point(&profile, p[0], p[1]);
     }
     kit_profile_point(&profile, right, opening->sill);
-    kit_profile_point(&profile, left, opening->sill);
+    if (has_sill)
+        kit_profile_point(&profile, left, opening->sill);
     kit_sweep(kit, &profile, sections, 2);
 }
 
@@ -220,7 +222,7 @@ void kit_panel(const struct kit *kit, double x0, double x1, double y0, double y1
                const struct kit_opening *opening, double depth)
 {
     face(kit, x0, x1, y0, y1, opening, 0);
-    reveal(kit, opening, depth);
+    reveal(kit, opening, depth, opening->sill > y0);
 }
 
 void kit_arcade(const struct kit *kit, double x0, double x1, double y0, double y1,

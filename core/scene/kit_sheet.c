@@ -105,7 +105,7 @@ struct web {
 static void web_point(const void *shape, double u, double v, double out[3])
 {
     const struct web *web = shape;
-    double across = (2 * u - 1) * (1 - v);
+    double across = (1 - 2 * u) * (1 - v);
 
     out[0] = web->a * across;
     out[1] = web->rise * sqrt(fmax(0, 1 - across * across));
@@ -133,15 +133,14 @@ static void pendentive_point(const void *shape, double u, double v, double out[3
 
     out[0] = radius * cos(angle);
     out[1] = sqrt(fmax(0, 2 * half * half - radius * radius));
-    out[2] = -radius * sin(angle);
+    out[2] = radius * sin(angle);
 }
 
 void kit_pendentives(const struct kit *kit, double half, int segments)
 {
     for (int quarter = 0; quarter < 4; quarter++) {
-        struct kit side = kit_mirror_z(kit);
+        struct kit side = kit_place(kit, 0, 0, 0, 90 * quarter);
 
-        side = kit_place(&side, 0, 0, 0, 90 * quarter);
         kit_sheet(&side, pendentive_point, &half, 2 * segments, segments / 2, 2 * half, half);
     }
 }
