@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-enum { TARGETS = 5 };
+enum { TARGETS = 5, SLIM_TARGETS = 3 };
 
 static bool create_texture(struct irb_gbuffer *gbuffer, struct irb_texture **out, const char *name,
                            unsigned format, struct irb_error *err)
@@ -31,9 +31,34 @@ static bool create_targets(struct irb_gbuffer *g, struct irb_error *err)
     return g->framebuffer != NULL;
 }
 
+/* Thesis table 5.1a. */
+static bool create_slim_targets(struct irb_gbuffer *g, struct irb_error *err)
+{
+    if (!create_texture(g, &g->diffuse, "slim gbuffer: diffuse", GL_RGBA8, err) ||
+        !create_texture(g, &g->specular, "slim gbuffer: specular", GL_RGBA8, err) ||
+        !create_texture(g, &g->normal, "slim gbuffer: normal", GL_RG16, err) ||
+        !create_texture(g, &g->depth, "slim gbuffer: depth", GL_DEPTH_COMPONENT32F, err))
+        return false;
+    struct irb_texture *const colour[SLIM_TARGETS] = {g->diffuse, g->specular, g->normal};
+    g->framebuffer =
+        irb_framebuffer_create(g->gl, "slim gbuffer", colour, SLIM_TARGETS, g->depth, err);
+    return g->framebuffer != NULL;
+}
+
 struct irb_gbuffer *irb_gbuffer_create(struct irb_gl *gl, int width, int height,
                                        struct irb_error *err)
 {
+    return irb_gbuffer_create_layout(gl, IRB_LAYOUT_FULL, width, height, err);
+}
+
+struct irb_gbuffer *irb_gbuffer_create_layout(struct irb_gl *gl, enum irb_layout layout, int width,
+                                              int height, struct irb_error *err)
+{
+    const bool slim = layout == IRB_LAYOUT_SLIM;
+    const struct irb_program_desc program = {
+        .name = slim ? "slim gbuffer" : "gbuffer",
+        .vertex = "frame/geometry.vert",
+        .fragment = slim ? "frame/gbuffer_slim.frag" : "frame/gbuffer.frag"};
     struct irb_gbuffer *gbuffer = calloc(1, sizeof *gbuffer);
     if (!gbuffer) {
         irb_fail(err, IRB_E_MEMORY, "out of memory");
@@ -42,12 +67,10 @@ struct irb_gbuffer *irb_gbuffer_create(struct irb_gl *gl, int width, int height,
     gbuffer->gl = gl;
     gbuffer->width = width;
     gbuffer->height = height;
-    gbuffer->program = irb_program_create(
-        gl,
-        &(struct irb_program_desc){
-            .name = "gbuffer", .vertex = "frame/geometry.vert", .fragment = "frame/gbuffer.frag"},
-        err);
-    if (gbuffer->program && create_targets(gbuffer, err))
+    gbuffer->layout = layout;
+    gbuffer->program = irb_program_create(gl, &program, err);
+    if (gbuffer->program &&
+        (slim ? create_slim_targets(gbuffer, err) : create_targets(gbuffer, err)))
         return gbuffer;
     irb_gbuffer_destroy(gbuffer);
     return NULL;
@@ -80,35 +103,112 @@ static void multiply(const float a[16], const float b[16], float out[16])
         }
 }
 
+/* What the slim layout is decoded with. */
+static void keep_camera(struct irb_gbuffer *gbuffer, const struct irb_camera *camera,
+                        const float view[16], const float projection[16])
+{
+    for (int i = 0; i < 3; i++) {
+        gbuffer->camera_position[i] = camera->position[i];
+        gbuffer->right[i] = view[4 * i];
+        gbuffer->up[i] = view[4 * i + 1];
+        gbuffer->back[i] = view[4 * i + 2];
+    }
+    gbuffer->tangent[0] = 1 / projection[0];
+    gbuffer->tangent[1] = 1 / projection[5];
+    gbuffer->z_near = camera->z_near;
+    gbuffer->z_far = camera->z_far;
+}
+
+static void clear(const struct irb_gbuffer *gbuffer)
+{
+    const struct irb_gl_api *api = &gbuffer->gl->api;
+    static const float zero[4] = {0}, farthest = 1;
+    const int targets = gbuffer->layout == IRB_LAYOUT_SLIM ? SLIM_TARGETS : TARGETS;
+
+    api->Disable(GL_SCISSOR_TEST);
+    api->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    api->DepthMask(GL_TRUE);
+    for (int i = 0; i < targets; i++)
+        api->ClearNamedFramebufferfv(gbuffer->framebuffer->id, GL_COLOR, i, zero);
+    api->ClearNamedFramebufferfv(gbuffer->framebuffer->id, GL_DEPTH, 0, &farthest);
+}
+
 bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *scene,
                         const struct irb_camera *camera, struct irb_error *err)
 {
     const struct irb_gl_api *api = &gbuffer->gl->api;
-    static const float zero[4] = {0}, farthest = 1;
     float view[16], projection[16], view_projection[16];
 
     irb_camera_matrices(camera, (float)gbuffer->width / (float)gbuffer->height, view, projection);
     multiply(projection, view, view_projection);
+    keep_camera(gbuffer, camera, view, projection);
     irb_framebuffer_bind(gbuffer->framebuffer);
-    api->Disable(GL_SCISSOR_TEST);
-    api->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    api->DepthMask(GL_TRUE);
-    for (int i = 0; i < TARGETS; i++)
-        api->ClearNamedFramebufferfv(gbuffer->framebuffer->id, GL_COLOR, i, zero);
-    api->ClearNamedFramebufferfv(gbuffer->framebuffer->id, GL_DEPTH, 0, &farthest);
+    clear(gbuffer);
     api->Enable(GL_DEPTH_TEST);
     api->DepthFunc(GL_LESS);
     irb_program_mat4(gbuffer->program, "view_projection", view_projection);
     irb_program_vec3(gbuffer->program, "camera_position", camera->position);
+    irb_program_vec3(gbuffer->program, "view_right", gbuffer->right);
+    irb_program_vec3(gbuffer->program, "view_up", gbuffer->up);
+    irb_program_vec3(gbuffer->program, "view_back", gbuffer->back);
     irb_scene_gl_draw(scene, gbuffer->program);
     api->Disable(GL_DEPTH_TEST);
     return irb_gl_check(gbuffer->gl, "gbuffer: draw", err);
+}
+
+int irb_gbuffer_pixel_bytes(const struct irb_gbuffer *gbuffer)
+{
+    const struct irb_texture *const layers[] = {gbuffer->position, gbuffer->normal,
+                                                gbuffer->geometric, gbuffer->diffuse,
+                                                gbuffer->specular, gbuffer->depth};
+    int64_t bytes = 0;
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
+        bytes += layers[i] ? layers[i]->bytes : 0;
+    return (int)(bytes / ((int64_t)gbuffer->width * gbuffer->height));
+}
+
+const char *irb_gbuffer_define(enum irb_layout layout)
+{
+    return layout == IRB_LAYOUT_SLIM ? "GBUFFER_SLIM 1" : "GBUFFER_SLIM 0";
+}
+
+int irb_gbuffer_bind(const struct irb_gbuffer *gbuffer, const struct irb_program *program,
+                     int first_unit)
+{
+    const bool slim = gbuffer->layout == IRB_LAYOUT_SLIM;
+    const struct {
+        const char *name;
+        const struct irb_texture *texture;
+    } layers[] = {
+        {"gbuffer_normal", gbuffer->normal},
+        {"gbuffer_diffuse", gbuffer->diffuse},
+        {"gbuffer_specular", gbuffer->specular},
+        {"gbuffer_depth", slim ? gbuffer->depth : NULL},
+        {"gbuffer_position", gbuffer->position},
+        {"gbuffer_geometric", gbuffer->geometric},
+    };
+    int unit = first_unit;
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
+        if (layers[i].texture) {
+            gbuffer->gl->api.BindTextureUnit((GLuint)unit, layers[i].texture->id);
+            irb_program_int(program, layers[i].name, unit++);
+        }
+    irb_program_vec3(program, "gbuffer_camera", gbuffer->camera_position);
+    irb_program_vec3(program, "gbuffer_right", gbuffer->right);
+    irb_program_vec3(program, "gbuffer_up", gbuffer->up);
+    irb_program_vec3(program, "gbuffer_back", gbuffer->back);
+    irb_program_vec2(program, "gbuffer_tangent", gbuffer->tangent);
+    irb_program_vec2(program, "gbuffer_near_far",
+                     (const float[]){gbuffer->z_near, gbuffer->z_far});
+    return unit;
 }
 
 bool irb_gbuffer_read(const struct irb_gbuffer *gbuffer, struct irb_gbuffer_image *out,
                       struct irb_error *err)
 {
     *out = (struct irb_gbuffer_image){.width = gbuffer->width, .height = gbuffer->height};
+    if (gbuffer->layout != IRB_LAYOUT_FULL)
+        return irb_fail(err, IRB_E_INTERNAL, "G-buffer: only the full layout is read back");
     if (irb_texture_read(gbuffer->position, 4, &out->position, err) &&
         irb_texture_read(gbuffer->normal, 4, &out->normal, err) &&
         irb_texture_read(gbuffer->geometric, 3, &out->geometric, err) &&

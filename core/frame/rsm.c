@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TARGETS = 4 };
+enum { TARGETS = 4, SLIM_TARGETS = 3 };
 
 /* Near plane of a spot light's image as a share of the scene's diagonal: far below anything
  * modelled, and harmless to precision, since the depth is reversed floating point. Source: ours. */
@@ -40,8 +40,33 @@ static bool create_targets(struct irb_rsm *rsm, struct irb_error *err)
     return rsm->framebuffer != NULL;
 }
 
+/* Thesis table 5.1b. */
+static bool create_slim_targets(struct irb_rsm *rsm, struct irb_error *err)
+{
+    if (!create_texture(rsm, &rsm->flux, "slim rsm: flux", GL_RGBA8, err) ||
+        !create_texture(rsm, &rsm->specular, "slim rsm: specular", GL_RGBA8, err) ||
+        !create_texture(rsm, &rsm->normal, "slim rsm: normal", GL_RG16, err) ||
+        !create_texture(rsm, &rsm->depth, "slim rsm: depth", GL_DEPTH_COMPONENT32F, err))
+        return false;
+    struct irb_texture *const colour[SLIM_TARGETS] = {rsm->flux, rsm->specular, rsm->normal};
+    rsm->framebuffer =
+        irb_framebuffer_create(rsm->gl, "slim rsm", colour, SLIM_TARGETS, rsm->depth, err);
+    return rsm->framebuffer != NULL;
+}
+
 struct irb_rsm *irb_rsm_create(struct irb_gl *gl, int resolution, struct irb_error *err)
 {
+    return irb_rsm_create_layout(gl, IRB_LAYOUT_FULL, resolution, err);
+}
+
+struct irb_rsm *irb_rsm_create_layout(struct irb_gl *gl, enum irb_layout layout, int resolution,
+                                      struct irb_error *err)
+{
+    const bool slim = layout == IRB_LAYOUT_SLIM;
+    const struct irb_program_desc program = {.name = slim ? "slim rsm" : "rsm",
+                                             .vertex = "frame/geometry.vert",
+                                             .fragment =
+                                                 slim ? "frame/rsm_slim.frag" : "frame/rsm.frag"};
     struct irb_rsm *rsm = calloc(1, sizeof *rsm);
     if (!rsm) {
         irb_fail(err, IRB_E_MEMORY, "out of memory");
@@ -49,12 +74,9 @@ struct irb_rsm *irb_rsm_create(struct irb_gl *gl, int resolution, struct irb_err
     }
     rsm->gl = gl;
     rsm->resolution = resolution;
-    rsm->program = irb_program_create(gl,
-                                      &(struct irb_program_desc){.name = "rsm",
-                                                                 .vertex = "frame/geometry.vert",
-                                                                 .fragment = "frame/rsm.frag"},
-                                      err);
-    if (rsm->program && create_targets(rsm, err))
+    rsm->layout = layout;
+    rsm->program = irb_program_create(gl, &program, err);
+    if (rsm->program && (slim ? create_slim_targets(rsm, err) : create_targets(rsm, err)))
         return rsm;
     irb_rsm_destroy(rsm);
     return NULL;
@@ -113,45 +135,122 @@ static void set_view_projection(struct irb_rsm *rsm, const struct irb_scene *sce
 
     measure_bounds(scene, light, &diagonal, &end);
     irb_light_basis(light, right, up);
+    rsm->directional = light->type == IRB_LIGHT_DIRECTIONAL;
+    memcpy(rsm->light_position, light->position, sizeof rsm->light_position);
+    memcpy(rsm->direction, light->direction, sizeof rsm->direction);
+    memcpy(rsm->right, right, sizeof right);
+    memcpy(rsm->up, up, sizeof up);
     memset(m, 0, sizeof rsm->view_projection);
     if (light->type == IRB_LIGHT_SPOT) {
         rsm->half_extent = (float)tan((double)light->outer);
         set_row(m, 3, light->direction, light->position, 1);
-        m[14] = (float)(near_share * (diagonal > 0 ? diagonal : 1));
+        m[14] = rsm->depth_range = (float)(near_share * (diagonal > 0 ? diagonal : 1));
     } else {
         rsm->half_extent = light->half_width;
         m[15] = 1;
-        set_row(m, 2, light->direction, light->position, -1 / (end > 0 ? end * far_margin : 1));
+        rsm->depth_range = (float)(end > 0 ? end * far_margin : 1);
+        set_row(m, 2, light->direction, light->position, -1 / (double)rsm->depth_range);
         m[14] += 1;
     }
     set_row(m, 0, right, light->position, 1 / (double)rsm->half_extent);
     set_row(m, 1, up, light->position, 1 / (double)rsm->half_extent);
 }
 
+/* The texel at the image's centre is the one that gets most: the falloff and the solid angle,
+ * at most the texel's area on the image plane, are largest on the axis. */
+static void set_flux_scale(struct irb_rsm *rsm, const struct irb_light *light)
+{
+    const double side = 2.0 * rsm->half_extent / rsm->resolution;
+    const double falloff = rsm->directional ? 1 : irb_light_falloff(light, 1);
+    for (int i = 0; i < 3; i++)
+        rsm->flux_scale[i] = (float)(light->intensity[i] * falloff * side * side);
+}
+
+static void clear(const struct irb_rsm *rsm)
+{
+    const struct irb_gl_api *api = &rsm->gl->api;
+    static const float zero[4] = {0};
+    const int targets = rsm->layout == IRB_LAYOUT_SLIM ? SLIM_TARGETS : TARGETS;
+
+    api->Disable(GL_SCISSOR_TEST);
+    api->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    api->DepthMask(GL_TRUE);
+    for (int i = 0; i < targets; i++)
+        api->ClearNamedFramebufferfv(rsm->framebuffer->id, GL_COLOR, i, zero);
+    api->ClearNamedFramebufferfv(rsm->framebuffer->id, GL_DEPTH, 0, zero);
+}
+
 bool irb_rsm_render(struct irb_rsm *rsm, const struct irb_scene_gl *scene,
                     const struct irb_light *light, struct irb_error *err)
 {
     const struct irb_gl_api *api = &rsm->gl->api;
-    static const float zero[4] = {0};
 
     set_view_projection(rsm, scene->scene, light);
+    set_flux_scale(rsm, light);
     irb_framebuffer_bind(rsm->framebuffer);
-    api->Disable(GL_SCISSOR_TEST);
-    api->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    api->DepthMask(GL_TRUE);
-    for (int i = 0; i < TARGETS; i++)
-        api->ClearNamedFramebufferfv(rsm->framebuffer->id, GL_COLOR, i, zero);
-    api->ClearNamedFramebufferfv(rsm->framebuffer->id, GL_DEPTH, 0, zero);
+    clear(rsm);
     api->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     api->Enable(GL_DEPTH_TEST);
     api->DepthFunc(GL_GREATER);
     irb_light_uniforms(light, rsm->program);
     irb_program_int(rsm->program, "resolution", rsm->resolution);
     irb_program_float(rsm->program, "half_extent", rsm->half_extent);
+    irb_program_vec3(rsm->program, "flux_scale", rsm->flux_scale);
     irb_program_mat4(rsm->program, "view_projection", rsm->view_projection);
     irb_scene_gl_draw(scene, rsm->program);
     api->Disable(GL_DEPTH_TEST);
     api->DepthFunc(GL_LESS);
     api->ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
     return irb_gl_check(rsm->gl, "rsm: draw", err);
+}
+
+int irb_rsm_texel_bytes(const struct irb_rsm *rsm)
+{
+    const struct irb_texture *const layers[] = {rsm->position, rsm->normal, rsm->flux,
+                                                rsm->specular, rsm->depth};
+    int64_t bytes = 0;
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
+        bytes += layers[i] ? layers[i]->bytes : 0;
+    return (int)(bytes / ((int64_t)rsm->resolution * rsm->resolution));
+}
+
+const char *irb_rsm_define(enum irb_layout layout)
+{
+    return layout == IRB_LAYOUT_SLIM ? "RSM_SLIM 1" : "RSM_SLIM 0";
+}
+
+static void set_fetch_uniforms(const struct irb_rsm *rsm, const struct irb_program *program)
+{
+    const float spread[2] = {!rsm->directional, rsm->directional};
+    const float range[2] = {rsm->directional ? 0 : rsm->depth_range,
+                            rsm->directional ? rsm->depth_range : 0};
+    irb_program_vec3(program, "rsm_light_position", rsm->light_position);
+    irb_program_vec3(program, "rsm_light_right", rsm->right);
+    irb_program_vec3(program, "rsm_light_up", rsm->up);
+    irb_program_vec3(program, "rsm_light_direction", rsm->direction);
+    irb_program_float(program, "rsm_half_extent", rsm->half_extent);
+    irb_program_vec2(program, "rsm_spread", spread);
+    irb_program_vec2(program, "rsm_depth_range", range);
+    irb_program_vec3(program, "rsm_flux_scale", rsm->flux_scale);
+}
+
+int irb_rsm_bind(const struct irb_rsm *rsm, const struct irb_program *program, int first_unit)
+{
+    const bool slim = rsm->layout == IRB_LAYOUT_SLIM;
+    const struct {
+        const char *name;
+        const struct irb_texture *texture;
+    } layers[] = {
+        {"rsm_flux", rsm->flux},
+        {"rsm_normal", rsm->normal},
+        {"rsm_specular", rsm->specular},
+        {slim ? "rsm_depth" : "rsm_position", slim ? rsm->depth : rsm->position},
+    };
+    int unit = first_unit;
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++) {
+        rsm->gl->api.BindTextureUnit((GLuint)unit, layers[i].texture->id);
+        irb_program_int(program, layers[i].name, unit++);
+    }
+    set_fetch_uniforms(rsm, program);
+    return unit;
 }

@@ -3,29 +3,12 @@
  * The reflective shadow map in full precision (thesis 3.2.2, 5.1.1).
  */
 #include "frame/geometry.glsl"
-#include "frame/light.glsl"
-#include "frame/solid_angle.glsl"
-
-uniform int resolution;
-uniform float half_extent; /* spot: tan of the half angle; directional: half side of the beam, m */
+#include "frame/flux_in.glsl"
 
 layout(location = 0) out vec4 out_position;
 layout(location = 1) out vec4 out_normal;
 layout(location = 2) out vec4 out_flux;
 layout(location = 3) out vec4 out_specular;
-
-/* Flux that enters this texel, W: intensity times the exact solid angle, or irradiance times the
- * texel's area. The falloff is that of the texel's centre. */
-vec3 flux_in()
-{
-    float side = 2.0 * half_extent / float(resolution);
-    if (light_type == LIGHT_DIRECTIONAL)
-        return light_intensity * (side * side);
-    vec2 corner = floor(gl_FragCoord.xy) * side - half_extent;
-    vec2 centre = corner + 0.5 * side;
-    float cos_theta = inversesqrt(dot(centre, centre) + 1.0);
-    return light_intensity * (light_falloff(cos_theta) * texel_solid_angle(corner, side));
-}
 
 void main()
 {
