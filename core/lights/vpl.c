@@ -17,13 +17,15 @@ struct irb_vpl_sampler {
     int pyramid_levels; /* log2 of the padded side, + 1 */
     struct irb_buffer *runs;
     int resolution;
+    enum irb_layout layout; /* of the RSM that the programs read */
 };
 
 static struct irb_program *create_program(struct irb_gl *gl, enum irb_vpl_sampling sampling,
-                                          const char *name, const char *path, struct irb_error *err)
+                                          enum irb_layout layout, const char *name,
+                                          const char *path, struct irb_error *err)
 {
     static const char *const sampling_defines[] = {"SAMPLING 0", "SAMPLING 1", "SAMPLING 2"};
-    const char *const defines[] = {sampling_defines[sampling], NULL};
+    const char *const defines[] = {sampling_defines[sampling], irb_rsm_define(layout), NULL};
     return irb_program_create(
         gl, &(struct irb_program_desc){.name = name, .compute = path, .defines = defines}, err);
 }
@@ -39,12 +41,37 @@ static bool create_pyramid(struct irb_gl *gl, struct irb_vpl_sampler *s, struct 
     s->pyramid_levels = 1;
     while (1 << (s->pyramid_levels - 1) < s->resolution)
         s->pyramid_levels++;
-    s->pyramid = create_program(gl, IRB_VPL_IMPORTANCE, "vpl: pyramid", "lights/pyramid.comp", err);
-    if (s->pyramid)
-        s->pyramid_sums =
-            irb_buffer_create(gl, "vpl: pyramid",
-                              4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL, err);
+    s->pyramid_sums =
+        irb_buffer_create(gl, "vpl: pyramid",
+                          4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL, err);
     return s->pyramid_sums != NULL;
+}
+
+static void destroy_programs(struct irb_vpl_sampler *s)
+{
+    struct irb_program **const programs[] = {&s->count, &s->scan, &s->write, &s->pyramid};
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++) {
+        irb_program_destroy(*programs[i]);
+        *programs[i] = NULL;
+    }
+}
+
+static bool create_programs(struct irb_vpl_set *set, enum irb_layout layout, struct irb_error *err)
+{
+    struct irb_gl *gl = set->gl;
+    struct irb_vpl_sampler *s = set->sampler;
+    const enum irb_vpl_sampling sampling = set->sampling;
+    destroy_programs(s);
+    s->layout = layout;
+    return (s->count = create_program(gl, sampling, layout, "vpl: count", "lights/vpl_count.comp",
+                                      err)) &&
+           (s->scan =
+                create_program(gl, sampling, layout, "vpl: scan", "lights/vpl_scan.comp", err)) &&
+           (s->write = create_program(gl, sampling, layout, "vpl: write", "lights/vpl_write.comp",
+                                      err)) &&
+           (sampling != IRB_VPL_IMPORTANCE ||
+            (s->pyramid = create_program(gl, sampling, layout, "vpl: pyramid",
+                                         "lights/pyramid.comp", err)));
 }
 
 /* Candidates that one invocation walks through: about the square root of their number, which
@@ -68,12 +95,7 @@ static bool create_sampler(struct irb_vpl_set *set, int resolution, struct irb_e
     if (!s)
         return irb_fail(err, IRB_E_MEMORY, "out of memory");
     s->resolution = resolution;
-    s->count = create_program(gl, set->sampling, "vpl: count", "lights/vpl_count.comp", err);
-    if (s->count)
-        s->scan = create_program(gl, set->sampling, "vpl: scan", "lights/vpl_scan.comp", err);
-    if (s->scan)
-        s->write = create_program(gl, set->sampling, "vpl: write", "lights/vpl_write.comp", err);
-    if (s->write)
+    if (create_programs(set, IRB_LAYOUT_FULL, err))
         /* the most runs that any number of candidates up to the capacity has, with some to spare */
         s->runs = irb_buffer_create(gl, "vpl: runs", 4 * (run_count_of(set->capacity) + (int64_t)8),
                                     NULL, err);
@@ -130,10 +152,7 @@ void irb_vpl_set_destroy(struct irb_vpl_set *set)
     if (!set)
         return;
     if (set->sampler) {
-        irb_program_destroy(set->sampler->count);
-        irb_program_destroy(set->sampler->scan);
-        irb_program_destroy(set->sampler->write);
-        irb_program_destroy(set->sampler->pyramid);
+        destroy_programs(set->sampler);
         irb_buffer_destroy(set->sampler->pyramid_sums);
         irb_buffer_destroy(set->sampler->runs);
         free(set->sampler);
@@ -151,8 +170,7 @@ static void build_pyramid(const struct irb_vpl_set *set, const struct irb_rsm *r
     const int levels = s->pyramid_levels;
 
     irb_program_use(s->pyramid);
-    api->BindTextureUnit(0, rsm->flux->id);
-    irb_program_int(s->pyramid, "rsm_flux", 0);
+    irb_rsm_bind(rsm, s->pyramid, 0);
     irb_program_int(s->pyramid, "resolution", s->resolution);
     for (int level = 0; level < levels; level++) {
         int side = 1 << (levels - 1 - level);
@@ -168,12 +186,11 @@ static void build_pyramid(const struct irb_vpl_set *set, const struct irb_rsm *r
 }
 
 static void set_candidates(const struct irb_vpl_set *set, const struct irb_program *program,
-                           int candidates, unsigned first)
+                           const struct irb_rsm *rsm, int candidates, unsigned first)
 {
     irb_program_use(program);
-    irb_program_int(program, "rsm_position", 0);
-    irb_program_int(program, "rsm_normal", 1);
-    irb_program_int(program, "rsm_flux", 2);
+    irb_rsm_bind(rsm, program, 0);
+    irb_program_float(program, "normal_offset", set->normal_offset);
     irb_program_int(program, "resolution", set->sampler->resolution);
     irb_program_int(program, "pyramid_levels", set->sampler->pyramid_levels);
     irb_program_uint(program, "candidates", (unsigned)candidates);
@@ -193,9 +210,6 @@ static void bind_inputs(const struct irb_vpl_set *set, const struct irb_rsm *rsm
         api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, PYRAMID_BINDING, s->pyramid_sums->id);
     if (s->pyramid)
         build_pyramid(set, rsm);
-    api->BindTextureUnit(0, rsm->position->id);
-    api->BindTextureUnit(1, rsm->normal->id);
-    api->BindTextureUnit(2, rsm->flux->id);
 }
 
 /* Zero flux from the last light to the end of its block. */
@@ -218,17 +232,19 @@ bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int 
                         "virtual lights: made for %d of an RSM of %d texels a side, asked for %d "
                         "of one of %d",
                         set->capacity, s->resolution, candidates, rsm->resolution);
+    if (rsm->layout != s->layout && !create_programs(set, rsm->layout, err))
+        return false;
     const int runs = run_count_of(candidates);
     const unsigned groups = (unsigned)(runs + RUN_GROUP - 1) / RUN_GROUP;
     bind_inputs(set, rsm);
-    set_candidates(set, s->count, candidates, first);
+    set_candidates(set, s->count, rsm, candidates, first);
     api->DispatchCompute(groups, 1, 1);
     api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     irb_program_use(s->scan);
     irb_program_uint(s->scan, "run_count", (unsigned)runs);
     api->DispatchCompute(1, 1, 1);
     api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    set_candidates(set, s->write, candidates, first);
+    set_candidates(set, s->write, rsm, candidates, first);
     api->DispatchCompute(groups, 1, 1);
     api->MemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                        GL_SHADER_STORAGE_BARRIER_BIT);

@@ -30,6 +30,8 @@ struct irb_vpl_set {
     int capacity;
     int count; /* lights in use after the last sampling */
     enum irb_vpl_sampling sampling;
+    float normal_offset; /* m: how far a light is shifted against its normal (Dachsbacher and
+                            Stamminger 2005); 0, may be set before any sampling */
     struct irb_vpl_sampler *sampler; /* private: programs, the flux pyramid */
     struct irb_gl *gl;               /* borrowed */
 };

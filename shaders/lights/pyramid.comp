@@ -5,7 +5,8 @@
  */
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform sampler2D rsm_flux;
+#include "frame/rsm_fetch.glsl"
+
 uniform int resolution;
 uniform int level;
 uniform int side;        /* of this level */
@@ -27,7 +28,7 @@ void main()
         value = (pyramid[corner] + pyramid[corner + 1]) +
                 (pyramid[corner + 2 * side] + pyramid[corner + 2 * side + 1]);
     } else if (at.x < resolution && at.y < resolution) {
-        value = max(0.0, dot(texelFetch(rsm_flux, at, 0).rgb, LUMINANCE));
+        value = max(0.0, dot(rsm_fetch_flux(at), LUMINANCE));
     }
     pyramid[offset + at.y * side + at.x] = value;
 }

@@ -4,11 +4,9 @@
  * texel chosen with probability p. SAMPLING is 0 all, 1 uniform, 2 importance, as enum
  * irb_vpl_sampling.
  */
+#include "frame/rsm_fetch.glsl"
 #include "lights/halton.glsl"
 
-uniform sampler2D rsm_position;
-uniform sampler2D rsm_normal;
-uniform sampler2D rsm_flux;
 uniform int resolution;  /* texels a side of the RSM */
 uniform uint candidates; /* N; all: resolution^2 */
 uniform uint first;      /* index of the first Halton point */
@@ -28,18 +26,18 @@ candidate draw(uint i)
     candidate c;
 #if SAMPLING == 0
     c.texel = ivec2(int(i) % resolution, int(i) / resolution);
-    c.flux = texelFetch(rsm_flux, c.texel, 0).rgb;
+    c.flux = rsm_fetch_flux(c.texel);
 #elif SAMPLING == 1
     vec2 point = halton(first + i);
     c.texel = min(ivec2(point * float(resolution)), ivec2(resolution - 1));
     float weight = float(resolution) * float(resolution) / float(candidates);
-    c.flux = texelFetch(rsm_flux, c.texel, 0).rgb * weight;
+    c.flux = rsm_fetch_flux(c.texel) * weight;
 #else
     float probability;
     c.texel = warp(halton(first + i), probability);
     c.flux = vec3(0.0);
     if (probability > 0.0)
-        c.flux = texelFetch(rsm_flux, c.texel, 0).rgb / (float(candidates) * probability);
+        c.flux = rsm_fetch_flux(c.texel) / (float(candidates) * probability);
 #endif
     return c;
 }

@@ -9,6 +9,8 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 1) readonly buffer Runs { uint runs[]; };
 layout(std430, binding = 0) writeonly buffer Lights { vec4 lights[]; };
 
+uniform float normal_offset; /* m, against the normal */
+
 void main()
 {
     uint run = gl_GlobalInvocationID.x, begin = run * run_length;
@@ -19,8 +21,10 @@ void main()
         candidate c = draw(i);
         if (!is_lit(c))
             continue;
-        lights[VPL_VECTORS * slot] = vec4(texelFetch(rsm_position, c.texel, 0).xyz, 0.0);
-        lights[VPL_VECTORS * slot + 1] = vec4(texelFetch(rsm_normal, c.texel, 0).xyz, 0.0);
+        vec3 normal = rsm_fetch_normal(c.texel);
+        vec3 position = rsm_fetch_position(c.texel).xyz - normal_offset * normal;
+        lights[VPL_VECTORS * slot] = vec4(position, 0.0);
+        lights[VPL_VECTORS * slot + 1] = vec4(normal, 0.0);
         lights[VPL_VECTORS * slot + 2] = vec4(c.flux, 0.0);
         slot++;
     }
