@@ -45,6 +45,7 @@ bool irb_command_reference(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_list(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_show(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_export_scene(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err);
 
 struct irb_command {

@@ -31,6 +31,10 @@ const struct irb_command irb_commands[] = {
      irb_command_show},
     {"inspect", "SCENE", 1, 1, "say what a scene file or built-in holds",
      "\n  irbench inspect cornell\n  irbench inspect sibenik.glb\n", irb_command_inspect},
+    {"export-scene", "SCENE FILE.glb", 2, 2, "write a scene with its view for other renderers",
+     "\nGeometry, materials, textures, camera and light of frame 0; units one to one (W/sr).\n\n"
+     "  irbench export-scene hall hall.glb\n",
+     irb_command_export_scene},
     {"doctor", "", 0, 0, "say what this machine can do, and what to do about what is missing",
      "\n  irbench doctor\n  irbench doctor --backend egl\n", irb_command_doctor},
     {NULL, NULL, 0, 0, NULL, NULL, NULL},

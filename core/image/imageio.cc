@@ -87,6 +87,30 @@ bool write_png(const char *temp, const struct irb_image &image, std::string &cau
     return ok;
 }
 
+bool encode_png(const char *name, const unsigned char *rgba, int width, int height,
+                std::vector<unsigned char> &file, struct irb_error *err)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+    bool opaque = true;
+    for (size_t i = 0; i < pixels; i++)
+        opaque = opaque && rgba[4 * i + 3] == 255;
+    OIIO::Filesystem::IOVecOutput sink(file);
+    OIIO::Filesystem::IOProxy *proxy = &sink;
+    auto out = OIIO::ImageOutput::create("png", proxy);
+    if (!out)
+        return irb_fail(err, IRB_E_INTERNAL, "%s: %s", name, one_line(OIIO::geterror()).c_str());
+    OIIO::ImageSpec spec(width, height, opaque ? 3 : 4, OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1); /* as stored, not premultiplied */
+    spec.attribute("png:compressionLevel", 5);
+    spec.attribute("DateTime", "2000:01:01 00:00:00");
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    if (!out->open(name, spec) || !out->write_image(OIIO::TypeUInt8, rgba, 4) || !out->close())
+        return irb_fail(err, IRB_E_INTERNAL, "%s: cannot encode as PNG: %s", name,
+                        one_line(out->geterror()).c_str());
+    return true;
+}
+
 /* A name with the ending that belongs to the content: OpenImageIO picks the reader by it. */
 std::string name_by_content(const char *name, const unsigned char *data, size_t size)
 {
@@ -217,6 +241,22 @@ bool irb_png_write(const char *path, const struct irb_image *image, struct irb_e
     ok = ok && irb_fs_commit(temp, path, err);
     std::free(temp);
     return ok;
+}
+
+bool irb_png_encode(const char *name, const unsigned char *rgba, int width, int height,
+                    unsigned char **data, size_t *size, struct irb_error *err)
+{
+    return guarded(name, err, [&] {
+        std::vector<unsigned char> file;
+        if (!encode_png(name, rgba, width, height, file, err))
+            return false;
+        *data = static_cast<unsigned char *>(std::malloc(file.size()));
+        if (!*data)
+            return irb_fail(err, IRB_E_MEMORY, "%s: out of memory", name);
+        std::memcpy(*data, file.data(), file.size());
+        *size = file.size();
+        return true;
+    });
 }
 
 bool irb_image_decode(const char *name, const void *data, size_t size, int *width, int *height,

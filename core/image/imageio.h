@@ -16,6 +16,12 @@ extern "C" {
  * 1 or 3 channels; NaN becomes 0. Equal images give equal files (a fixed date is stored). */
 bool irb_png_write(const char *path, const struct irb_image *image, struct irb_error *err);
 
+/* Encodes 8-bit RGBA (not premultiplied, row 0 at the top, as stored) as a PNG in memory; without
+ * the alpha channel where it is 255 everywhere. `name` appears in messages. *data is malloc'ed.
+ * Equal images give equal bytes. */
+bool irb_png_encode(const char *name, const unsigned char *rgba, int width, int height,
+                    unsigned char **data, size_t *size, struct irb_error *err);
+
 /* Decodes an image file from memory (PNG, JPEG, WebP, ...) to RGBA, 8 bits a channel, row 0 at
  * the top, as stored (no colour conversion). `name` appears in messages. *rgba is malloc'ed. */
 bool irb_image_decode(const char *name, const void *data, size_t size, int *width, int *height,

@@ -18,6 +18,13 @@ bool irb_png_write(const char *path, const struct irb_image *image, struct irb_e
     return absent(path, err);
 }
 
+bool irb_png_encode(const char *name, const unsigned char *rgba, int width, int height,
+                    unsigned char **data, size_t *size, struct irb_error *err)
+{
+    (void)rgba, (void)width, (void)height, (void)data, (void)size;
+    return absent(name, err);
+}
+
 bool irb_image_decode(const char *name, const void *data, size_t size, int *width, int *height,
                       unsigned char **rgba, struct irb_error *err)
 {

@@ -149,7 +149,7 @@ static void make_json(const struct test_gltf *gltf, const char *uri, struct irb_
 }
 
 /* folder/shape.gltf and folder/shape.bin; the path of the first, which the caller frees. */
-static char *write_gltf(const char *folder, const struct test_gltf *gltf)
+__attribute__((unused)) static char *write_gltf(const char *folder, const struct test_gltf *gltf)
 {
     char *path = irb_asprintf("%s/shape.gltf", folder), *bin = irb_asprintf("%s/shape.bin", folder);
     struct irb_str json = {0}, bytes;
@@ -172,7 +172,7 @@ static void append_u32(struct irb_str *str, size_t value)
 }
 
 /* folder/shape.glb, cut to its first `keep` bytes (0: all). */
-static char *write_glb(const char *folder, const struct test_gltf *gltf, size_t keep)
+__attribute__((unused)) static char *write_glb(const char *folder, const struct test_gltf *gltf, size_t keep)
 {
     char *path = irb_asprintf("%s/shape.glb", folder);
     struct irb_str json = {0}, bytes, file = {0};
