@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Three floats as a value. The tracer's inner loop keeps them in registers, which array types
- * (cglm's) prevent; everything else of the project uses cglm.
+ * prevent.
  */
 #ifndef IRB_REFERENCE_VEC3_H
 #define IRB_REFERENCE_VEC3_H

@@ -88,6 +88,23 @@ static void csv_number(struct irb_str *out, double value)
         irb_str_printf(out, "%.9g", value);
 }
 
+/* {"mode": "uniform", "samples": 400} as mode=uniform;samples=400: no comma and no quote, so that
+ * tools that split lines at commas (gnuplot, cut) read the table as well. Malloc'ed. */
+static char *csv_params(const char *json)
+{
+    struct irb_str text = {0};
+    irb_str_append(&text, "", 0);
+    for (const char *c = json; *c; c++) {
+        if (*c == ',')
+            irb_str_append(&text, ";", 1);
+        else if (*c == ':')
+            irb_str_append(&text, "=", 1);
+        else if (!strchr("{}\" \n", *c))
+            irb_str_append(&text, c, 1);
+    }
+    return text.text;
+}
+
 static void write_csv(const struct irb_table_data *data, struct irb_str *out)
 {
     irb_str_printf(out, "scene,method,trial,params");
@@ -102,12 +119,14 @@ static void write_csv(const struct irb_table_data *data, struct irb_str *out)
     irb_str_printf(out, "\n");
     for (int i = 0; i < data->row_count; i++) {
         const struct irb_table_row *row = &data->rows[i];
+        char *params = csv_params(row->trial->params_json);
         const char *const texts[] = {row->trial->scene, row->trial->method, row->trial->trial,
-                                     row->trial->params_json};
+                                     params};
         for (int c = 0; c < 4; c++) {
             irb_str_printf(out, "%s", c ? "," : "");
             csv_text(out, texts[c]);
         }
+        free(params);
         for (int m = 0; m < IRB_METRIC_COUNT; m++)
             csv_number(out, row->metrics[m]);
         for (int s = 0; s < data->stage_count; s++)

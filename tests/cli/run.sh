@@ -29,8 +29,7 @@ YAML
 
 # every number but the times
 numbers() {
-    # the quoted column (params) holds commas of its own
-    "$IRBENCH" table "$1" --format csv | sed 's/"\([^"]\|""\)*"/params/g' | awk -F, '
+    "$IRBENCH" table "$1" --format csv | awk -F, '
         NR == 1 { for (i = 1; i <= NF; i++) keep[i] = $i !~ /_ms/ }
         { line = ""; for (i = 1; i <= NF; i++) if (keep[i]) line = line "," $i; print line }'
 }

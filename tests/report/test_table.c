@@ -180,7 +180,7 @@ static void test_csv(void **state)
         lines++;
     assert_int_equal(lines, 5);
     expect_cell(text, 0, "scene", "cornell");
-    expect_cell(text, 0, "params", "{\"mode\": \"uniform\", \"samples\": 400}");
+    expect_cell(text, 0, "params", "mode=uniform;samples=400");
     expect_cell(text, 0, "indirect_relmse", "0.04");
     expect_cell(text, 0, "claim_rmse", "");
     expect_cell(text, 0, "frame_ms", "3");
