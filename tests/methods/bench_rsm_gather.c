@@ -4,18 +4,20 @@
  * million pixel-samples a second, median of REPEATS. A bare loop is one pass over 1024 lights in
  * one uniform block: no sampling, no light count, no accumulation over blocks. It is timed with one
  * pixel an invocation, as such a loop is usually written, and with the tile of pixels that the
- * method uses on software rasterisers. The method runs as it does in a frame; its gather stage
- * counts.
+ * method uses on software rasterisers. The polar gather has bare loops of its own, in which each
+ * pixel fetches texels for itself, and an RSM of 512 x 512. The method runs as it does in a frame,
+ * for every pixel (gather_scale=1); its gather stage counts.
  *
  *     bench_rsm_gather [auto|osmesa|egl] [--check]
  *
- * --check: exit status 1 where a mode is below 60 % of either bare loop. 77 without a backend.
+ * --check: exit status 1 where a mode is below 60 % of one of its bare loops. 77 without a backend.
  */
 #include "core/base/clock.h"
 #include "core/frame/gbuffer.h"
 #include "core/frame/rsm.h"
 #include "core/scene/builtin.h"
 #include "methods/method.h"
+#include "methods/rsm/polar.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,11 +27,29 @@ extern const struct irb_method irb_method_rsm;
 static const struct irb_method *const rsm = &irb_method_rsm;
 
 /* Mode `all` takes every lit texel: of 40^2 about two thirds, so that all modes fill a block. */
-enum { WIDTH = 512, HEIGHT = 384, SAMPLES = 1024, RESOLUTION = 40, REPEATS = 11, MODES = 3 };
+enum { WIDTH = 512, HEIGHT = 384, RESOLUTION = 40, POLAR_RESOLUTION = 512, REPEATS = 11 };
 enum { STAGE_GATHER = 1, BLOCK_LIGHTS = 1024, LIGHT_FLOATS = 12, GROUP = 8 };
-enum { BARE = MODES, BARE_LOOPS = 2, PASSES = MODES + BARE_LOOPS };
+enum { MODES = 5, BARE_LOOPS = 4, BARE = MODES, PASSES = MODES + BARE_LOOPS, POLAR_SAMPLES = 400 };
 
-static const int bare_tiles[BARE_LOOPS] = {1, 4};
+static const struct {
+    const char *name, *mode, *samples, *fetch;
+    int bare[2]; /* its yardsticks */
+} modes[MODES] = {
+    {"all", "all", "1024", "packed", {0, 1}},
+    {"uniform", "uniform", "1024", "packed", {0, 1}},
+    {"importance", "importance", "1024", "packed", {0, 1}},
+    {"polar", "polar", "400", "packed", {2, 2}},
+    {"polar, full", "polar", "400", "full", {3, 3}},
+};
+static const struct {
+    const char *name, *shader, *define;
+    int tile, samples;
+} bare_loops[BARE_LOOPS] = {
+    {"1 pixel", "methods/rsm/bench_bare_loop.comp", "TILE 1", 1, BLOCK_LIGHTS},
+    {"4 x 4", "methods/rsm/bench_bare_loop.comp", "TILE 4", 4, BLOCK_LIGHTS},
+    {"one fetch", "methods/rsm/bench_bare_polar.comp", "PACKED 1", 1, POLAR_SAMPLES},
+    {"three fetches", "methods/rsm/bench_bare_polar.comp", "PACKED 0", 1, POLAR_SAMPLES},
+};
 
 static const double least_share = 0.6; /* of the bare loop */
 
@@ -38,7 +58,8 @@ struct bench {
     struct irb_scene *scene;
     struct irb_scene_gl *scene_gl;
     struct irb_gbuffer *gbuffer;
-    struct irb_rsm *rsm;
+    struct irb_rsm *rsm, *polar_rsm;
+    struct rsm_polar *polar; /* its packed map is the bare loop's */
     struct irb_light light;
     struct irb_camera camera;
     struct irb_timer *timer;
@@ -73,18 +94,28 @@ static void make_frame(struct bench *b)
     must((b->rsm = irb_rsm_create(b->gl, RESOLUTION, &err)), &err);
     must(irb_gbuffer_render(b->gbuffer, b->scene_gl, &b->camera, &err), &err);
     must(irb_rsm_render(b->rsm, b->scene_gl, &b->light, &err), &err);
+    must((b->polar_rsm = irb_rsm_create(b->gl, POLAR_RESOLUTION, &err)), &err);
+    must(irb_rsm_render(b->polar_rsm, b->scene_gl, &b->light, &err), &err);
+    must((b->polar = rsm_polar_create(b->gl, &err)), &err);
+    const struct rsm_pattern pattern = {
+        .samples = POLAR_SAMPLES, .radius = 0.3f, .resolution = POLAR_RESOLUTION};
+    must(rsm_polar_prepare(b->polar, b->polar_rsm, &pattern, RSM_FETCH_PACKED, &err), &err);
     must((b->timer = irb_timer_create(b->gl, &err)), &err);
 }
 
 static void make_methods(struct bench *b)
 {
     struct irb_error err = {0};
-    static const char *const modes[MODES] = {"all", "uniform", "importance"};
     for (int i = 0; i < MODES; i++) {
         b->params[i] = calloc(1, rsm->params_size);
         irb_options_default(rsm->params, b->params[i]);
-        must(irb_option_set(rsm->params, b->params[i], "mode", modes[i], &err), &err);
-        must(irb_option_set(rsm->params, b->params[i], "samples", "1024", &err), &err);
+        const char *const settings[][2] = {{"mode", modes[i].mode},
+                                           {"samples", modes[i].samples},
+                                           {"fetch", modes[i].fetch},
+                                           {"gather_scale", "1"}};
+        for (int k = 0; k < 4; k++)
+            must(irb_option_set(rsm->params, b->params[i], settings[k][0], settings[k][1], &err),
+                 &err);
         must((b->state[i] = rsm->create(b->gl, b->scene_gl, WIDTH, HEIGHT, b->params[i], &err)),
              &err);
     }
@@ -103,10 +134,9 @@ static void make_bare_loops(struct bench *b)
     }
     must((b->lights = irb_buffer_create(b->gl, "bare: lights", sizeof lights, lights, &err)), &err);
     for (int i = 0; i < BARE_LOOPS; i++) {
-        static const char *const defines[BARE_LOOPS][2] = {{"TILE 1", NULL}, {"TILE 4", NULL}};
-        const struct irb_program_desc program = {.name = "bare loop",
-                                                 .compute = "methods/rsm/bench_bare_loop.comp",
-                                                 .defines = defines[i]};
+        const char *const defines[] = {bare_loops[i].define, NULL};
+        const struct irb_program_desc program = {
+            .name = "bare loop", .compute = bare_loops[i].shader, .defines = defines};
         must((b->bare[i] = irb_program_create(b->gl, &program, &err)), &err);
     }
     const struct irb_texture_desc target = {
@@ -114,22 +144,35 @@ static void make_bare_loops(struct bench *b)
     must((b->target = irb_texture_create(b->gl, &target, &err)), &err);
 }
 
-static double time_bare_loop(struct bench *b, int loop)
+static void bind_bare_loop(struct bench *b, const struct irb_program *program, int samples)
 {
     const struct irb_gl_api *api = &b->gl->api;
-    const struct irb_program *program = b->bare[loop];
-    const unsigned side = (unsigned)(GROUP * bare_tiles[loop]);
+    const struct {
+        const char *name;
+        const struct irb_texture *texture;
+    } inputs[] = {
+        {"gbuffer_position", b->gbuffer->position}, {"gbuffer_normal", b->gbuffer->normal},
+        {"packed_rsm", b->polar->packed},           {"rsm_position", b->polar_rsm->position},
+        {"rsm_normal", b->polar_rsm->normal},       {"rsm_flux", b->polar_rsm->flux},
+    };
+    irb_program_use(program);
+    for (unsigned i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+        api->BindTextureUnit(i, inputs[i].texture->id);
+        irb_program_int(program, inputs[i].name, (int)i);
+    }
+    irb_program_int(program, "sample_count", samples);
+    api->BindBufferBase(GL_UNIFORM_BUFFER, 0, b->lights->id);
+    api->BindImageTexture(0, b->target->id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+}
+
+static double time_bare_loop(struct bench *b, int loop)
+{
+    const unsigned side = (unsigned)(GROUP * bare_loops[loop].tile);
     struct irb_error err = {0};
     double ms[IRB_MAX_STAGES];
     irb_timer_begin(b->timer, STAGE_GATHER);
-    irb_program_use(program);
-    api->BindTextureUnit(0, b->gbuffer->position->id);
-    api->BindTextureUnit(1, b->gbuffer->normal->id);
-    irb_program_int(program, "gbuffer_position", 0);
-    irb_program_int(program, "gbuffer_normal", 1);
-    api->BindBufferBase(GL_UNIFORM_BUFFER, 0, b->lights->id);
-    api->BindImageTexture(0, b->target->id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-    api->DispatchCompute(WIDTH / side, HEIGHT / side, 1);
+    bind_bare_loop(b, b->bare[loop], bare_loops[loop].samples);
+    b->gl->api.DispatchCompute(WIDTH / side, HEIGHT / side, 1);
     irb_timer_end(b->timer);
     irb_timer_collect(b->timer, ms);
     must(irb_gl_check(b->gl, "bare loop", &err), &err);
@@ -145,7 +188,9 @@ static double time_method(struct bench *b, int mode)
                                             .light = &b->light,
                                             .camera = &b->camera,
                                             .gbuffer = b->gbuffer,
-                                            .rsm = b->rsm,
+                                            .rsm = strcmp(modes[mode].mode, "polar")
+                                                       ? b->rsm
+                                                       : b->polar_rsm,
                                             .params = b->params[mode],
                                             .timer = b->timer};
     must(rsm->render_frame(b->state[mode], &inputs, &out, &err), &err);
@@ -163,22 +208,24 @@ static int compare(const void *a, const void *b)
 /* Medians in million pixel-samples a second; false where one is below the share that is asked. */
 static bool print_result(const struct bench *b, double ms[PASSES][REPEATS])
 {
-    static const char *const names[PASSES] = {"all", "uniform", "importance", "bare, 1 pixel",
-                                              "bare, 4 x 4"};
     double rate[PASSES];
     bool fast = true;
     printf("%s, clock %s\n", b->gl->renderer, irb_timer_clock(b->timer));
-    printf("%-14s %7s %8s %13s %13s\n", "gather", "lights", "M/s", "of 1 pixel", "of 4 x 4");
+    printf("%-14s %8s %8s\n", "gather", "samples", "M/s");
     for (int i = PASSES - 1; i >= 0; i--) {
-        double lights = i >= BARE ? BLOCK_LIGHTS : b->vpls[i];
+        double samples = i >= BARE ? bare_loops[i - BARE].samples : b->vpls[i];
+        const char *name = i >= BARE ? bare_loops[i - BARE].name : modes[i].name;
         qsort(ms[i], REPEATS, sizeof(double), compare);
-        rate[i] = WIDTH * HEIGHT * lights / (ms[i][REPEATS / 2] * 1e3);
-        printf("%-14s %7.0f %8.0f", names[i], lights, rate[i]);
-        for (int loop = 0; loop < BARE_LOOPS && i < BARE; loop++) {
-            printf(" %11.0f %%", 100 * rate[i] / rate[BARE + loop]);
+        rate[i] = WIDTH * HEIGHT * samples / (ms[i][REPEATS / 2] * 1e3);
+        printf("%-14s %8.0f %8.0f", name, samples, rate[i]);
+        for (int k = 0; k < 2 && i < BARE; k++) {
+            const int loop = modes[i].bare[k];
+            if (k && loop == modes[i].bare[0])
+                continue;
+            printf("  %.0f %% of %s", 100 * rate[i] / rate[BARE + loop], bare_loops[loop].name);
             fast = fast && rate[i] >= least_share * rate[BARE + loop];
         }
-        printf("\n");
+        printf("%s\n", i >= BARE ? "  (bare loop)" : "");
     }
     return fast;
 }
@@ -195,6 +242,8 @@ static void destroy(struct bench *b)
     irb_texture_destroy(b->target);
     irb_timer_destroy(b->timer);
     irb_rsm_destroy(b->rsm);
+    irb_rsm_destroy(b->polar_rsm);
+    rsm_polar_destroy(b->polar);
     irb_gbuffer_destroy(b->gbuffer);
     irb_scene_gl_destroy(b->scene_gl);
     irb_scene_destroy(b->scene);
