@@ -30,7 +30,8 @@ const struct irb_option irb_render_options[] = {
 
 /* Keys of the file's top that are no render option. */
 static const char *const top_keys[] = {"name",  "seed",   "resolution", "reference", "scenes",
-                                       "scene", "camera", "light",      "trials"};
+                                       "scene", "camera", "light",      "regions",
+                                       "trials"};
 enum { TOP_KEYS = sizeof top_keys / sizeof *top_keys };
 
 /* ---- single settings, from the file and from --set alike ---- */
@@ -134,7 +135,8 @@ static bool read_reference(struct irb_config *config, struct irb_yaml *yaml, irb
 static bool read_settings(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node root,
                           struct irb_error *err)
 {
-    static const char *const elsewhere[] = {"scenes", "scene", "camera", "light", "trials"};
+    static const char *const elsewhere[] = {"scenes", "scene",   "camera",
+                                            "light",  "regions", "trials"};
     irb_yaml_node resolution = irb_yaml_find(yaml, root, "resolution");
     for (int i = 0; i < irb_yaml_pairs(root); i++) {
         irb_yaml_node value = irb_yaml_value(yaml, root, i);
@@ -180,8 +182,8 @@ static bool override_one(struct irb_config *config, const char *key, const char 
                          struct irb_error *err)
 {
     static const char reference[] = "reference.";
-    static const char *const fixed[] = {"scenes", "scene",  "camera",
-                                        "light",  "trials", "reference"};
+    static const char *const fixed[] = {"scenes",  "scene",  "camera",   "light",
+                                        "regions", "trials", "reference"};
     if (!strncmp(key, reference, sizeof reference - 1))
         return irb_option_set(irb_reference_options, &config->reference, key + sizeof reference - 1,
                               value, err) ||
@@ -243,7 +245,7 @@ static bool check_together(const struct irb_config *config, struct irb_error *er
                         "%s: reference: expected min_samples to be at most max_samples, found %d "
                         "and %d",
                         config->path, reference->min_samples, reference->max_samples);
-    return true;
+    return irb_config_check_regions(config, err);
 }
 
 bool irb_config_load(struct irb_config *config, const char *path, const char *const *overrides,
@@ -271,6 +273,7 @@ void irb_config_destroy(struct irb_config *config)
         free(config->scenes[i].name);
         free(config->scenes[i].source);
         irb_animation_destroy(&config->scenes[i].animation);
+        irb_config_destroy_regions(&config->scenes[i]);
     }
     for (int i = 0; i < config->trial_count; i++)
         irb_trial_destroy(&config->trials[i]);
@@ -323,6 +326,7 @@ struct irb_key irb_config_key(const struct irb_config *config)
         irb_hash_string(hash, scene->name);
         irb_hash_string(hash, slash ? slash + 1 : scene->source);
         hash_animation(&scene->animation, hash);
+        irb_config_hash_regions(scene, hash);
     }
     irb_hash_u64(hash, (uint64_t)config->trial_count);
     for (int i = 0; i < config->trial_count; i++) {

@@ -24,10 +24,20 @@ struct irb_render_settings {
 };
 extern const struct irb_option irb_render_options[];
 
+/* A named box of the image that is scored on its own. */
+struct irb_region {
+    char *name;
+    float box[4];   /* x0, y0 (upper left, inclusive), x1, y1 (exclusive) */
+    bool fractions; /* of width and height; else pixels. All four at most 1 means fractions. */
+};
+enum { IRB_MOST_REGIONS = 16 }; /* of a scene */
+
 struct irb_scene_entry {
     char *name;                     /* key in tables: the built-in's name or the file's stem */
     char *source;                   /* built-in name or path, ${VARIABLES} expanded */
     struct irb_animation animation; /* from the config, else the built-in's view */
+    struct irb_region *regions;     /* owned */
+    int region_count;
 };
 
 struct irb_trial {
@@ -58,6 +68,10 @@ void irb_config_destroy(struct irb_config *config);
 bool irb_trial_parse(struct irb_trial *trial, const char *text,
                      const struct irb_registry *registry, struct irb_error *err);
 void irb_trial_destroy(struct irb_trial *trial);
+
+/* The region in pixels of a width x height image: x0, y0, x1, y1, the last two exclusive. Fractions
+ * are rounded to the nearest pixel edge. False where no pixel is in it or it leaves the image. */
+bool irb_region_pixels(const struct irb_region *region, int width, int height, int box[4]);
 
 /* Hash of all that can change a result of the run. */
 struct irb_key irb_config_key(const struct irb_config *config);

@@ -26,6 +26,14 @@ bool irb_config_read_scenes(struct irb_config *config, struct irb_yaml *yaml,
 bool irb_config_read_script(struct irb_animation *animation, struct irb_yaml *yaml,
                             irb_yaml_node scene, bool builtin, struct irb_error *err);
 
+/* `regions:` of `scene` (config_regions.c). The boxes are checked against the resolution later, once
+ * --set has had its say. */
+bool irb_config_read_regions(struct irb_scene_entry *entry, struct irb_yaml *yaml,
+                             irb_yaml_node scene, struct irb_error *err);
+bool irb_config_check_regions(const struct irb_config *config, struct irb_error *err);
+void irb_config_hash_regions(const struct irb_scene_entry *entry, struct irb_hash *hash);
+void irb_config_destroy_regions(struct irb_scene_entry *entry);
+
 /* `trials:` (config_trials.c). */
 bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
                             const struct irb_registry *registry, struct irb_error *err);

@@ -164,7 +164,7 @@ static bool read_name(struct irb_config *config, struct irb_scene_entry *entry,
     return true;
 }
 
-/* `node` holds the keys scene, camera and light; `name` may be NULL. */
+/* `node` holds the keys scene, camera, light and regions; `name` may be NULL. */
 static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node node,
                        irb_yaml_node name, struct irb_error *err)
 {
@@ -181,13 +181,14 @@ static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yam
         return false;
     if (builtin)
         builtin->view(&entry->animation);
-    return irb_config_read_script(&entry->animation, yaml, node, builtin != NULL, err);
+    return irb_config_read_script(&entry->animation, yaml, node, builtin != NULL, err) &&
+           irb_config_read_regions(entry, yaml, node, err);
 }
 
 static bool read_list(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node list,
                       struct irb_error *err)
 {
-    static const char *const keys[] = {"scene", "name", "camera", "light", NULL};
+    static const char *const keys[] = {"scene", "name", "camera", "light", "regions", NULL};
     for (int i = 0; i < irb_yaml_count(list); i++) {
         irb_yaml_node node = irb_yaml_item(yaml, list, i);
         if (!irb_yaml_check_map(yaml, node, "scene", keys, err) ||
@@ -199,13 +200,13 @@ static bool read_list(struct irb_config *config, struct irb_yaml *yaml, irb_yaml
 
 bool irb_config_read_scenes(struct irb_config *config, struct irb_yaml *yaml, struct irb_error *err)
 {
-    static const char *const single_keys[] = {"scene", "camera", "light"};
+    static const char *const single_keys[] = {"scene", "camera", "light", "regions"};
     irb_yaml_node root = irb_yaml_root(yaml);
     irb_yaml_node list = irb_yaml_find(yaml, root, "scenes");
     if (!list && !irb_yaml_find(yaml, root, "scene"))
         return irb_yaml_fail(yaml, root, err,
                              "scenes: missing; expected a list of scenes, or one scene:");
-    for (size_t i = 0; list && i < 3; i++) {
+    for (size_t i = 0; list && i < sizeof single_keys / sizeof *single_keys; i++) {
         irb_yaml_node other = irb_yaml_find(yaml, root, single_keys[i]);
         if (other)
             return irb_yaml_fail(yaml, other, err,

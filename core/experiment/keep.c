@@ -159,7 +159,8 @@ static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted,
     if (!irb_target_load(&kept.target, keep->run, keep->sequence, frame, keep->constants, err))
         return false;
     int threads = keep->run->options->threads;
-    bool ok = irb_target_prepare_flip(&kept.target, keep->constants, threads, err) &&
+    bool ok = irb_target_prepare(&kept.target, keep->sequence->entry, keep->constants, threads,
+                                 err) &&
               irb_parallel_for(count, threads, keep_one, &kept);
     for (int t = 0; !ok && t < keep->trial_count; t++)
         if (errs[t].code != IRB_E_OK && err)

@@ -4,10 +4,10 @@
 #include "core/experiment/paths.h"
 #include "core/frame/composite.h"
 #include "core/score/metrics.h"
+#include "core/score/ssim.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 void irb_scored_frame_destroy(struct irb_scored_frame *frame)
 {
@@ -20,7 +20,8 @@ bool irb_scored_trial_open(struct irb_scored_trial *scored, struct irb_run *run,
                            const struct irb_sequence *sequence, const struct irb_trial *trial,
                            struct irb_error *err)
 {
-    *scored = (struct irb_scored_trial){.trial = trial, .scene = sequence->entry->name};
+    *scored = (struct irb_scored_trial){
+        .trial = trial, .scene = sequence->entry->name, .entry = sequence->entry};
     scored->id = irb_store_trial_find(run->store, scored->scene, trial->name, run->config->seed);
     return scored->id > 0 ||
            irb_fail(err, IRB_E_USAGE, "%s: %s is not rendered; run --stage render first", run->dir,
@@ -47,30 +48,90 @@ bool irb_scored_frame_load(struct irb_scored_frame *out, const struct irb_run *r
     return ok;
 }
 
-/* RMSE, relMSE, bias and energy ratio of one image, into four consecutive metrics. */
-static struct irb_error_scores score_image(const struct irb_pair *pair, double eps, double *rmse,
-                                           double *relmse, double *bias, double *energy_ratio)
+/* One ranked image, what it is held against, and where its scores go. */
+struct ranked {
+    struct irb_pair pair;
+    const struct irb_flip_reference *flip; /* NULL: a black sequence, HDR-FLIP is not defined */
+    const struct irb_target_view *view;
+    double eps, peak, mean_reference;
+    bool full; /* which of the two: picks the metrics */
+};
+
+/* The metric `name` of the image. */
+#define RANKED(image, name) ((image)->full ? IRB_METRIC_full_##name : IRB_METRIC_indirect_##name)
+
+static struct ranked ranked_image(bool full, const struct irb_score_context *context,
+                                  const struct irb_scored_frame *frame)
+{
+    const struct irb_target *target = context->target;
+    const struct irb_target_constants *c = context->constants;
+    if (full)
+        return (struct ranked){
+            .pair = {&frame->full, &target->full, target->mask},
+            .flip = target->flip_full,
+            .view = &target->view_full,
+            .eps = c->eps_full,
+            .peak = c->peak_full,
+            .mean_reference = c->mean_full,
+            .full = true,
+        };
+    return (struct ranked){
+        .pair = {&frame->indirect, &target->indirect, target->mask},
+        .flip = target->flip_indirect,
+        .view = &target->view_indirect,
+        .eps = c->eps_indirect,
+        .peak = c->peak_indirect,
+        .mean_reference = c->mean_indirect,
+    };
+}
+
+static struct irb_error_scores score_errors(const struct ranked *image, double *v)
+{
+    struct irb_error_scores scores = irb_score_errors(&image->pair, image->eps);
+    v[RANKED(image, rmse)] = scores.rmse;
+    v[RANKED(image, relmse)] = scores.relmse;
+    v[RANKED(image, smape)] = scores.smape;
+    v[RANKED(image, psnr)] = irb_psnr(scores.rmse, image->peak);
+    v[RANKED(image, bias)] = scores.bias;
+    v[RANKED(image, energy_ratio)] = scores.energy_ratio;
+    return scores;
+}
+
+/* RMSE, relMSE and energy ratio of an image that is not ranked. */
+static void score_unranked(const struct irb_pair *pair, double eps, double *rmse, double *relmse,
+                           double *energy_ratio)
 {
     struct irb_error_scores scores = irb_score_errors(pair, eps);
     *rmse = scores.rmse;
     *relmse = scores.relmse;
-    if (bias)
-        *bias = scores.bias;
     *energy_ratio = scores.energy_ratio;
-    return scores;
 }
 
-/* reference NULL: a black sequence, for which FLIP is not defined. */
-static bool score_flip(const struct irb_pair *pair, const struct irb_flip_reference *reference,
-                       double *value, struct irb_error *err)
+/* HDR-FLIP, and its map where a region wants it. One thread: the trials are what runs in
+ * parallel. */
+static bool score_flip(const struct ranked *image, struct irb_image *map, double *v,
+                       struct irb_error *err)
 {
     struct irb_flip_scores scores;
-    /* one thread: the trials are what runs in parallel */
-    if (reference &&
-        !irb_flip_hdr_prepared(pair->test, reference, pair->mask, 1, NULL, &scores, err))
+    if (!image->flip)
+        return true;
+    if (!irb_flip_hdr_prepared(image->pair.test, image->flip, image->pair.mask, 1, map, &scores,
+                               err))
         return false;
-    if (reference)
-        *value = scores.mean;
+    v[RANKED(image, flip)] = scores.mean;
+    return true;
+}
+
+/* SSIM and LDR-FLIP. */
+static bool score_view(const struct ranked *image, const struct irb_target_view *view, double *v,
+                       struct irb_error *err)
+{
+    struct irb_flip_scores flip;
+    if (!irb_ssim(&view->luma, &image->view->luma, image->pair.mask, NULL, &v[RANKED(image, ssim)],
+                  err) ||
+        !irb_flip_views(view->flip, image->view->flip, image->pair.mask, 1, NULL, &flip, err))
+        return false;
+    v[RANKED(image, ldr_flip)] = flip.mean;
     return true;
 }
 
@@ -100,40 +161,132 @@ static bool warp_pair(struct warped_pair *out, const struct irb_pair *previous,
     return true;
 }
 
-static bool score_flicker(const struct irb_pair *previous, const struct irb_pair *current,
-                          const struct irb_reprojection *motion, double mean_reference,
-                          double *flicker, double *pop_share, struct irb_error *err)
+static void warped_destroy(struct warped_pair *warped)
 {
-    struct warped_pair warped;
-    bool ok = warp_pair(&warped, previous, motion, err);
-    if (ok) {
-        struct irb_flicker_scores scores =
-            irb_score_flicker(&warped.pair, current, mean_reference);
-        *flicker = scores.flicker;
-        *pop_share = scores.pop_share;
+    irb_image_destroy(&warped->test);
+    irb_image_destroy(&warped->reference);
+    free(warped->mask);
+}
+
+/* What the test image would be if it followed the reference exactly: max(0, I_(t-1) + R_t -
+ * R_(t-1)), where both frames have a finite pixel; elsewhere the test image itself, and `mask` is 0
+ * there. */
+static bool follow_reference(const struct irb_pair *previous, const struct irb_pair *current,
+                             struct irb_image *expected, uint8_t *mask, struct irb_error *err)
+{
+    const struct irb_image *test = current->test;
+    if (!irb_image_create(expected, test->width, test->height, 3, err))
+        return false;
+    for (size_t i = 0; i < irb_image_pixels(test); i++) {
+        mask[i] = previous->mask[i] && current->mask[i];
+        for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+            /* the error first: where there is none, the result is the reference to the bit */
+            double error = (double)previous->test->data[c] - previous->reference->data[c];
+            double value = current->reference->data[c] + error;
+            expected->data[c] = value > 0 ? (float)value : 0;
+            mask[i] = mask[i] && isfinite(value) && isfinite(test->data[c]);
+        }
+        for (size_t c = 3 * i; !mask[i] && c < 3 * i + 3; c++)
+            expected->data[c] = test->data[c];
     }
-    irb_image_destroy(&warped.test);
-    irb_image_destroy(&warped.reference);
-    free(warped.mask);
+    return true;
+}
+
+static bool score_temporal_flip(const struct ranked *image, const struct irb_pair *previous,
+                                const struct irb_target_view *view, double exposure, double *v,
+                                struct irb_error *err)
+{
+    struct irb_image expected = {0};
+    struct irb_target_view expected_view = {0};
+    struct irb_flip_scores flip;
+    uint8_t *mask = malloc(irb_image_pixels(image->pair.test));
+    bool ok = mask != NULL;
+    if (!ok)
+        irb_fail(err, IRB_E_MEMORY, "no memory for a mask");
+    ok = ok && follow_reference(previous, &image->pair, &expected, mask, err) &&
+         irb_target_view_create(&expected_view, &expected, exposure, 1, err) &&
+         irb_flip_views(view->flip, expected_view.flip, mask, 1, NULL, &flip, err);
+    if (ok)
+        v[RANKED(image, temporal_flip)] = flip.mean;
+    irb_target_view_destroy(&expected_view);
+    irb_image_destroy(&expected);
+    free(mask);
     return ok;
 }
 
-static bool score_temporal(double *v, const struct irb_score_context *context,
-                           const struct irb_pair *indirect, const struct irb_pair *full,
-                           const struct irb_scored_frame *previous, struct irb_error *err)
+static void score_regions(const struct irb_score_context *context, const struct ranked *image,
+                          const struct irb_image *flip_map, const struct irb_pair *previous,
+                          struct irb_frame_scores *scores, const struct irb_scene_entry *entry)
+{
+    for (int r = 0; r < entry->region_count; r++) {
+        struct irb_pair pair = image->pair;
+        pair.mask = context->target->regions[r];
+        struct irb_error_scores errors = irb_score_errors(&pair, image->eps);
+        double values[] = {
+            errors.rmse, errors.relmse, errors.bias,
+            flip_map->data ? irb_masked_mean(flip_map, pair.mask) : NAN,
+            previous ? irb_score_flicker(previous, &pair, image->mean_reference).flicker : NAN};
+        enum { COUNT = sizeof values / sizeof *values };
+        _Static_assert(2 * COUNT == IRB_REGION_METRIC_COUNT, "the order of IRB_REGION_METRICS");
+        for (int i = 0; i < COUNT; i++)
+            scores->regions[r][(image->full ? COUNT : 0) + i] = values[i];
+    }
+}
+
+/* The previous frame's pair of the same image. */
+static struct irb_pair previous_pair(bool full, const struct irb_score_context *context,
+                                     const struct irb_scored_frame *previous)
 {
     const struct irb_target *before = context->previous_target;
-    const struct irb_target_constants *c = context->constants;
-    struct irb_pair indirect_before = {&previous->indirect, &before->indirect, before->mask};
-    struct irb_pair full_before = {&previous->full, &before->full, before->mask};
-    double variance = context->target->noise_variance + before->noise_variance;
-    v[IRB_METRIC_reference_flicker] =
-        c->mean_indirect > 0 ? sqrt(variance) / c->mean_indirect : NAN;
-    return score_flicker(&indirect_before, indirect, context->motion, c->mean_indirect,
-                         &v[IRB_METRIC_indirect_flicker], &v[IRB_METRIC_indirect_pop_share],
-                         err) &&
-           score_flicker(&full_before, full, context->motion, c->mean_full,
-                         &v[IRB_METRIC_full_flicker], &v[IRB_METRIC_full_pop_share], err);
+    if (full)
+        return (struct irb_pair){&previous->full, &before->full, before->mask};
+    return (struct irb_pair){&previous->indirect, &before->indirect, before->mask};
+}
+
+/* All scores of one ranked image. */
+static bool score_ranked(struct irb_frame_scores *scores, const struct irb_score_context *context,
+                         const struct irb_scored_trial *trial, const struct ranked *image,
+                         const struct irb_scored_frame *previous, struct irb_error *err)
+{
+    double *v = scores->values, exposure = context->constants->exposure;
+    struct irb_target_view view = {0};
+    struct irb_image flip_map = {0};
+    struct warped_pair before = {0};
+    bool regions = trial->entry->region_count > 0;
+    bool ok = irb_target_view_create(&view, image->pair.test, exposure, 1, err) &&
+              score_flip(image, regions ? &flip_map : NULL, v, err) &&
+              score_view(image, &view, v, err);
+    if (ok && previous) {
+        struct irb_pair pair = previous_pair(image->full, context, previous);
+        ok = warp_pair(&before, &pair, context->motion, err) &&
+             score_temporal_flip(image, &before.pair, &view, exposure, v, err);
+    }
+    if (ok && previous) {
+        struct irb_flicker_scores flicker =
+            irb_score_flicker(&before.pair, &image->pair, image->mean_reference);
+        v[RANKED(image, flicker)] = flicker.flicker;
+        v[RANKED(image, pop_share)] = flicker.pop_share;
+    }
+    if (ok)
+        score_regions(context, image, &flip_map, previous ? &before.pair : NULL, scores,
+                      trial->entry);
+    warped_destroy(&before);
+    irb_image_destroy(&flip_map);
+    irb_target_view_destroy(&view);
+    return ok;
+}
+
+/* What is known of the reference itself. */
+static void score_reference(const struct irb_score_context *context, bool temporal, double *v)
+{
+    const struct irb_target *target = context->target;
+    double mean = context->constants->mean_indirect;
+    v[IRB_METRIC_reference_noise] = target->noise_relmse;
+    v[IRB_METRIC_masked_share] = target->masked_share;
+    if (!temporal)
+        return;
+    double variance = target->noise_variance + context->previous_target->noise_variance;
+    v[IRB_METRIC_reference_flicker] = mean > 0 ? sqrt(variance) / mean : NAN;
 }
 
 bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_context *context,
@@ -142,193 +295,28 @@ bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_con
 {
     const struct irb_target *target = context->target;
     const struct irb_target_constants *c = context->constants;
+    const struct irb_reference_settings *reference = &context->settings->reference;
     double *v = scores->values;
-    for (int i = 0; i < IRB_METRIC_COUNT; i++)
-        v[i] = NAN;
-    struct irb_pair indirect = {&current->indirect, &target->indirect, target->mask};
-    struct irb_pair full = {&current->full, &target->full, target->mask};
+    irb_frame_scores_clear(scores);
+    struct ranked indirect = ranked_image(false, context, current);
+    struct ranked full = ranked_image(true, context, current);
     struct irb_pair solution = {&current->full, &target->solution, target->mask};
     struct irb_pair claim = {&current->indirect, &target->claim, target->mask};
-    struct irb_error_scores errors = score_image(
-        &indirect, c->eps_indirect, &v[IRB_METRIC_indirect_rmse], &v[IRB_METRIC_indirect_relmse],
-        &v[IRB_METRIC_indirect_bias], &v[IRB_METRIC_indirect_energy_ratio]);
+    struct irb_error_scores errors = score_errors(&indirect, v);
     v[IRB_METRIC_non_finite] = (double)errors.non_finite;
     v[IRB_METRIC_negative] = (double)errors.negative;
-    score_image(&full, c->eps_full, &v[IRB_METRIC_full_rmse], &v[IRB_METRIC_full_relmse],
-                &v[IRB_METRIC_full_bias], &v[IRB_METRIC_full_energy_ratio]);
-    if (context->settings->reference.bounces > 1)
-        score_image(&solution, c->eps_solution, &v[IRB_METRIC_solution_rmse],
-                    &v[IRB_METRIC_solution_relmse], NULL, &v[IRB_METRIC_solution_energy_ratio]);
-    if (context->settings->reference.unoccluded && !trial->trial->method->claims_visibility)
-        score_image(&claim, c->eps_claim, &v[IRB_METRIC_claim_rmse], &v[IRB_METRIC_claim_relmse],
-                    NULL, &v[IRB_METRIC_claim_energy_ratio]);
-    v[IRB_METRIC_reference_noise] = target->noise_relmse;
-    scores->present =
-        score_flip(&indirect, target->flip_indirect, &v[IRB_METRIC_indirect_flip], err) &&
-        score_flip(&full, target->flip_full, &v[IRB_METRIC_full_flip], err) &&
-        (!previous || score_temporal(v, context, &indirect, &full, previous, err));
+    score_errors(&full, v);
+    if (reference->bounces > 1)
+        score_unranked(&solution, c->eps_solution, &v[IRB_METRIC_solution_rmse],
+                       &v[IRB_METRIC_solution_relmse], &v[IRB_METRIC_solution_energy_ratio]);
+    if (reference->unoccluded && !trial->trial->method->claims_visibility)
+        score_unranked(&claim, c->eps_claim, &v[IRB_METRIC_claim_rmse], &v[IRB_METRIC_claim_relmse],
+                       &v[IRB_METRIC_claim_energy_ratio]);
+    score_reference(context, previous != NULL, v);
+    if (c->lag)
+        irb_lag_errors(c->lag, current->frame, &current->indirect, target->mask,
+                       scores->lag_errors);
+    scores->present = score_ranked(scores, context, trial, &indirect, previous, err) &&
+                      score_ranked(scores, context, trial, &full, previous, err);
     return scores->present;
-}
-
-bool irb_frame_scores_store(const struct irb_frame_scores *scores, struct irb_store *store,
-                            int64_t trial, int frame, struct irb_error *err)
-{
-    struct irb_store_value values[IRB_METRIC_COUNT];
-    int count = 0;
-    for (int i = 0; i < IRB_METRIC_COUNT; i++)
-        if (!isnan(scores->values[i]))
-            values[count++] = (struct irb_store_value){irb_metrics[i].name, scores->values[i]};
-    return irb_store_scores(store, trial, frame, values, count, err);
-}
-
-struct frames_reader {
-    struct irb_frame_scores *frames;
-    int count;
-};
-
-static void read_value(void *user, int frame, const char *name, double value)
-{
-    struct frames_reader *reader = user;
-    int metric = irb_metric_find(name);
-    if (frame < 0 || frame >= reader->count || metric < 0)
-        return;
-    struct irb_frame_scores *scores = &reader->frames[frame];
-    if (!scores->present)
-        for (int i = 0; i < IRB_METRIC_COUNT; i++)
-            scores->values[i] = NAN;
-    scores->present = true;
-    scores->values[metric] = value;
-}
-
-bool irb_frame_scores_read(struct irb_frame_scores *frames, int count, struct irb_store *store,
-                           int64_t trial, struct irb_error *err)
-{
-    struct frames_reader reader = {frames, count};
-    return irb_store_read_scores(store, trial, read_value, &reader, err);
-}
-
-int irb_worst_frame(const struct irb_frame_scores *frames, int count)
-{
-    int worst = 0;
-    for (int i = 1; i < count; i++)
-        if (frames[i].values[IRB_METRIC_indirect_relmse] >
-            frames[worst].values[IRB_METRIC_indirect_relmse])
-            worst = i;
-    return worst;
-}
-
-/* How the values of the frames become the sequence's. */
-enum aggregate { MEAN, ROOT_MEAN_SQUARE, SUM };
-
-static enum aggregate aggregate_of(int metric)
-{
-    switch (metric) {
-    case IRB_METRIC_indirect_rmse:
-    case IRB_METRIC_full_rmse:
-    case IRB_METRIC_solution_rmse:
-    case IRB_METRIC_claim_rmse:
-    case IRB_METRIC_indirect_flicker:
-    case IRB_METRIC_full_flicker:
-    case IRB_METRIC_reference_flicker:
-        return ROOT_MEAN_SQUARE;
-    case IRB_METRIC_non_finite:
-    case IRB_METRIC_negative:
-        return SUM;
-    default:
-        return MEAN;
-    }
-}
-
-static double aggregate(const struct irb_frame_scores *frames, int count, int metric)
-{
-    double sum = 0, squares = 0;
-    int n = 0;
-    for (int i = 0; i < count; i++) {
-        double value = frames[i].values[metric];
-        if (isnan(value))
-            continue;
-        sum += value;
-        squares += value * value;
-        n++;
-    }
-    if (!n)
-        return NAN;
-    switch (aggregate_of(metric)) {
-    case ROOT_MEAN_SQUARE:
-        return sqrt(squares / n);
-    case SUM:
-        return sum;
-    default:
-        return sum / n;
-    }
-}
-
-/* lost_energy: mean; gl_bytes: largest. */
-struct statistics {
-    double lost_energy, bytes;
-    int lost_count;
-};
-
-static void read_statistic(void *user, int frame, const char *name, double value)
-{
-    struct statistics *s = user;
-    if (frame < 0 || isnan(value))
-        return;
-    if (!strcmp(name, "lost_energy")) {
-        s->lost_energy += value;
-        s->lost_count++;
-    } else if (!strcmp(name, "gl_bytes") && !(value <= s->bytes)) {
-        s->bytes = value;
-    }
-}
-
-bool irb_sequence_scores_store(const struct irb_frame_scores *frames, int count,
-                               const struct irb_target_constants *constants,
-                               struct irb_store *store, int64_t trial, struct irb_error *err)
-{
-    struct irb_frame_scores whole = {.present = true};
-    struct statistics statistics = {.bytes = NAN};
-    if (!irb_store_read_statistics(store, trial, read_statistic, &statistics, err))
-        return false;
-    double *v = whole.values;
-    for (int i = 0; i < IRB_METRIC_COUNT; i++)
-        v[i] = aggregate(frames, count, i);
-    /* sum v / sum r = 1 + sum (v - r) / sum r */
-    if (constants->mean_indirect > 0)
-        v[IRB_METRIC_indirect_energy_ratio] =
-            1 + v[IRB_METRIC_indirect_bias] / constants->mean_indirect;
-    if (constants->mean_full > 0)
-        v[IRB_METRIC_full_energy_ratio] = 1 + v[IRB_METRIC_full_bias] / constants->mean_full;
-    v[IRB_METRIC_lost_energy] =
-        statistics.lost_count ? statistics.lost_energy / statistics.lost_count : NAN;
-    v[IRB_METRIC_gl_bytes] = statistics.bytes;
-    return irb_frame_scores_store(&whole, store, trial, -1, err);
-}
-
-bool irb_target_constants_store(const struct irb_target_constants *constants, struct irb_run *run,
-                                const struct irb_sequence *sequence, struct irb_error *err)
-{
-    const struct irb_store_value values[] = {
-        {"mean_indirect", constants->mean_indirect},
-        {"mean_full", constants->mean_full},
-        {"relmse_eps_indirect", constants->eps_indirect},
-        {"relmse_eps_full", constants->eps_full},
-        {"flip_indirect_start", constants->flip_indirect.start},
-        {"flip_indirect_stop", constants->flip_indirect.stop},
-        {"flip_indirect_exposures", constants->flip_indirect.count},
-        {"flip_full_start", constants->flip_full.start},
-        {"flip_full_stop", constants->flip_full.stop},
-        {"flip_full_exposures", constants->flip_full.count},
-        {"preview_exposure", constants->exposure},
-    };
-    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        char *name = irb_asprintf("scene/%s/%s", sequence->entry->name, values[i].name);
-        char *text = irb_asprintf("%.9g", values[i].value);
-        bool ok = irb_store_set_meta(run->store, name, text, err);
-        free(text);
-        free(name);
-        if (!ok)
-            return false;
-    }
-    return true;
 }

@@ -13,6 +13,7 @@
 struct irb_scored_trial {
     const struct irb_trial *trial;
     const char *scene; /* borrowed */
+    const struct irb_scene_entry *entry; /* borrowed: the scene's regions */
     int64_t id;        /* in the store */
 };
 
@@ -22,10 +23,12 @@ struct irb_scored_frame {
     struct irb_image indirect, full;
 };
 
-/* One value a metric of the list; NaN where it is not defined. */
+/* NaN where a value is not defined. */
 struct irb_frame_scores {
     bool present;
-    double values[IRB_METRIC_COUNT];
+    double values[IRB_METRIC_COUNT]; /* as the list has them */
+    double lag_errors[IRB_LAG_COUNT]; /* of the indirect image, see irb_lag_errors */
+    double regions[IRB_MOST_REGIONS][IRB_REGION_METRIC_COUNT];
 };
 
 struct irb_score_context {
@@ -54,20 +57,30 @@ static inline bool irb_frame_scores_present(const struct irb_frame_scores *score
     return scores->present;
 }
 
+/* ---- score_sequence.c ---- */
+
+/* All values are NaN, and `present` false. */
+void irb_frame_scores_clear(struct irb_frame_scores *scores);
+
+/* Stored under the metrics' names; those of a region as "indirect_rmse@REGION", lag errors as
+ * "lag_error@TAU". */
 bool irb_frame_scores_store(const struct irb_frame_scores *scores, struct irb_store *store,
-                            int64_t trial, int frame, struct irb_error *err);
+                            const struct irb_scored_trial *trial, int frame,
+                            struct irb_error *err);
 /* Fills what the store has, frames[0..count-1]. */
 bool irb_frame_scores_read(struct irb_frame_scores *frames, int count, struct irb_store *store,
-                           int64_t trial, struct irb_error *err);
+                           const struct irb_scored_trial *trial, struct irb_error *err);
 
 /* The frame with the largest indirect relMSE. */
 int irb_worst_frame(const struct irb_frame_scores *frames, int count);
 
 /* Figures of the sequence under frame -1: RMSE and flicker as the root of the mean square over
- * frames, energy ratios from the summed bias, counts as sums, all else as means. */
+ * frames, PSNR from that RMSE, energy ratios from the summed bias, counts as sums, all else as
+ * means; and the lag. */
 bool irb_sequence_scores_store(const struct irb_frame_scores *frames, int count,
                                const struct irb_target_constants *constants,
-                               struct irb_store *store, int64_t trial, struct irb_error *err);
+                               struct irb_store *store, const struct irb_scored_trial *trial,
+                               struct irb_error *err);
 
 /* Stores the constants as meta values "scene/NAME/...". */
 bool irb_target_constants_store(const struct irb_target_constants *constants, struct irb_run *run,

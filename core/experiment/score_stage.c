@@ -94,7 +94,7 @@ static bool store_fresh(struct scoring *s, struct irb_error *err)
         struct trial_scores *trial = &s->trials[t];
         if (!trial->fresh[s->frame])
             continue;
-        if (!irb_frame_scores_store(&trial->frames[s->frame], s->run->store, trial->trial.id,
+        if (!irb_frame_scores_store(&trial->frames[s->frame], s->run->store, &trial->trial,
                                     s->frame, err))
             return false;
     }
@@ -113,7 +113,8 @@ static bool anything_missing(const struct scoring *s, int frame)
 static bool score_one_frame(struct scoring *s, struct irb_error *err)
 {
     if (!load_targets(s, err) ||
-        !irb_target_prepare_flip(&s->target, &s->constants, s->run->options->threads, err))
+        !irb_target_prepare(&s->target, s->sequence->entry, &s->constants,
+                            s->run->options->threads, err))
         return false;
     if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
         for (int t = 0; t < s->trial_count; t++)
@@ -121,7 +122,7 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
                 *err = s->trials[t].err;
         return false;
     }
-    irb_target_drop_flip(&s->target);
+    irb_target_unprepare(&s->target);
     irb_target_destroy(&s->previous_target);
     s->previous_target = s->target;
     s->target = (struct irb_target){0};
@@ -161,7 +162,7 @@ static bool open_trials(struct scoring *s, struct irb_error *err)
             return irb_fail(err, IRB_E_MEMORY, "no memory for the scores of %zu frames", n);
         if (!irb_scored_trial_open(&trial->trial, s->run, s->sequence, &config->trials[t], err) ||
             !irb_frame_scores_read(trial->frames, config->render.frames, s->run->store,
-                                   trial->trial.id, err))
+                                   &trial->trial, err))
             return false;
     }
     return true;
@@ -178,6 +179,7 @@ static void close_scoring(struct scoring *s)
     irb_reprojection_destroy(&s->motion);
     irb_target_destroy(&s->target);
     irb_target_destroy(&s->previous_target);
+    irb_target_constants_destroy(&s->constants);
 }
 
 /* The figures of the sequence. */
@@ -185,7 +187,7 @@ static bool store_sequences(struct scoring *s, struct irb_error *err)
 {
     for (int t = 0; t < s->trial_count; t++)
         if (!irb_sequence_scores_store(s->trials[t].frames, s->sequence->frame_count,
-                                       &s->constants, s->run->store, s->trials[t].trial.id, err))
+                                       &s->constants, s->run->store, &s->trials[t].trial, err))
             return false;
     return true;
 }

@@ -10,29 +10,87 @@
 #include <math.h>
 #include <stdlib.h>
 
-void irb_target_drop_flip(struct irb_target *target)
+bool irb_target_view_create(struct irb_target_view *view, const struct irb_image *radiance,
+                            double exposure, int threads, struct irb_error *err)
+{
+    struct irb_displayed displayed;
+    *view = (struct irb_target_view){0};
+    if (!irb_display(radiance, exposure, &displayed, err))
+        return false;
+    view->luma = displayed.luma; /* moved */
+    view->flip = irb_flip_view_create(&displayed.linear, IRB_FLIP_PPD, threads, err);
+    irb_image_destroy(&displayed.linear);
+    if (!view->flip)
+        irb_target_view_destroy(view);
+    return view->flip != NULL;
+}
+
+void irb_target_view_destroy(struct irb_target_view *view)
+{
+    irb_image_destroy(&view->luma);
+    irb_flip_reference_destroy(view->flip);
+    view->flip = NULL;
+}
+
+void irb_target_unprepare(struct irb_target *target)
 {
     irb_flip_reference_destroy(target->flip_indirect);
     irb_flip_reference_destroy(target->flip_full);
     target->flip_indirect = target->flip_full = NULL;
+    irb_target_view_destroy(&target->view_indirect);
+    irb_target_view_destroy(&target->view_full);
+    for (int i = 0; i < IRB_MOST_REGIONS; i++) {
+        free(target->regions[i]);
+        target->regions[i] = NULL;
+    }
 }
 
-bool irb_target_prepare_flip(struct irb_target *target,
-                             const struct irb_target_constants *constants, int threads,
-                             struct irb_error *err)
+/* The target's mask inside the region. */
+static bool region_mask(struct irb_target *target, int index, const struct irb_region *region,
+                        struct irb_error *err)
+{
+    int width = target->indirect.width, height = target->indirect.height, box[4];
+    if (!irb_region_pixels(region, width, height, box))
+        return irb_fail(err, IRB_E_INTERNAL, "region %s: outside %d x %d pixels", region->name,
+                        width, height);
+    uint8_t *mask = calloc((size_t)width * (size_t)height, 1);
+    target->regions[index] = mask;
+    if (!mask)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for a mask of %d x %d pixels", width, height);
+    for (int y = box[1]; y < box[3]; y++)
+        for (int x = box[0]; x < box[2]; x++) {
+            size_t i = (size_t)y * (size_t)width + (size_t)x;
+            mask[i] = target->mask[i];
+        }
+    return true;
+}
+
+bool irb_target_prepare(struct irb_target *target, const struct irb_scene_entry *entry,
+                        const struct irb_target_constants *constants, int threads,
+                        struct irb_error *err)
 {
     if (constants->indirect_lit &&
         !(target->flip_indirect = irb_flip_reference_create(
               &target->indirect, &constants->flip_indirect, IRB_FLIP_PPD, threads, err)))
         return false;
-    return !constants->full_lit ||
-           (target->flip_full = irb_flip_reference_create(&target->full, &constants->flip_full,
-                                                          IRB_FLIP_PPD, threads, err));
+    if (constants->full_lit &&
+        !(target->flip_full = irb_flip_reference_create(&target->full, &constants->flip_full,
+                                                        IRB_FLIP_PPD, threads, err)))
+        return false;
+    if (!irb_target_view_create(&target->view_indirect, &target->indirect, constants->exposure,
+                                threads, err) ||
+        !irb_target_view_create(&target->view_full, &target->full, constants->exposure, threads,
+                                err))
+        return false;
+    for (int i = 0; i < entry->region_count; i++)
+        if (!region_mask(target, i, &entry->regions[i], err))
+            return false;
+    return true;
 }
 
 void irb_target_destroy(struct irb_target *target)
 {
-    irb_target_drop_flip(target);
+    irb_target_unprepare(target);
     irb_gbuffer_image_destroy(&target->gbuffer);
     free(target->mask);
     irb_image_destroy(&target->direct);
@@ -63,9 +121,15 @@ static bool make_mask(struct irb_target *target, const struct irb_run *run,
     target->mask = ok ? malloc(pixels) : NULL;
     if (ok && !target->mask)
         ok = irb_fail(err, IRB_E_MEMORY, "no memory for a mask of %zu pixels", pixels);
-    for (size_t i = 0; ok && i < pixels; i++)
-        target->mask[i] =
-            target->gbuffer.position.data[4 * i + 3] > 0 && !(excluded.data && excluded.data[i] > 0);
+    size_t covered = 0, left_out = 0;
+    for (size_t i = 0; ok && i < pixels; i++) {
+        bool geometry = target->gbuffer.position.data[4 * i + 3] > 0;
+        bool differs = excluded.data && excluded.data[i] > 0;
+        covered += geometry;
+        left_out += geometry && differs;
+        target->mask[i] = geometry && !differs;
+    }
+    target->masked_share = covered ? (double)left_out / (double)covered : 0;
     irb_image_destroy(&excluded);
     return ok;
 }
@@ -161,16 +225,18 @@ static void add_means(struct irb_target_constants *c, const struct irb_target *t
     c->mean_claim += irb_masked_mean(&target->claim, target->mask) / frames;
 }
 
-/* FLIP's exposures over all frames, through arrays of pointers. */
-static bool exposures_of(struct irb_image *images, uint8_t **masks, int count,
-                         struct irb_flip_exposures *out)
+/* FLIP's exposures and PSNR's peak over all frames, through arrays of pointers. */
+static bool scales_of(struct irb_image *images, uint8_t **masks, int count,
+                      struct irb_flip_exposures *out, double *peak)
 {
     const struct irb_image **references = malloc((size_t)count * sizeof *references);
     if (!references)
         return false;
     for (int i = 0; i < count; i++)
         references[i] = &images[i];
-    bool lit = irb_flip_exposures_of(references, (const uint8_t *const *)masks, count, out);
+    const uint8_t *const *counted = (const uint8_t *const *)masks;
+    bool lit = irb_flip_exposures_of(references, counted, count, out);
+    *peak = irb_value_percentile(references, counted, count, IRB_PSNR_PEAK_FRACTION);
     free(references);
     return lit;
 }
@@ -184,6 +250,7 @@ static bool collect_frames(struct sequence_images *images, struct irb_target_con
         if (!irb_target_load(&target, run, sequence, i, NULL, err))
             return false;
         add_means(c, &target, sequence->frame_count);
+        c->camera_rests = c->camera_rests && (i == 0 || irb_sequence_same_camera(sequence, i));
         if (i == 0 && run->config->render.exposure <= 0)
             c->exposure = irb_exposure_of(&target.full, &target.gbuffer);
         images->indirect[i] = target.indirect;
@@ -197,10 +264,31 @@ static bool collect_frames(struct sequence_images *images, struct irb_target_con
     return true;
 }
 
+/* Keeps what the lag is taken from: nothing where the camera moves or the sequence is short. */
+static bool set_lag(struct irb_target_constants *c, const struct sequence_images *images,
+                    struct irb_error *err)
+{
+    struct irb_lag_range range = irb_lag_range(images->count);
+    if (!c->camera_rests || range.first > range.last)
+        return true;
+    c->lag = irb_lag_reference_create(images->indirect->width, images->indirect->height,
+                                      images->count, err);
+    for (int i = 0; c->lag && i < images->count; i++)
+        irb_lag_reference_set(c->lag, i, &images->indirect[i]);
+    return c->lag != NULL;
+}
+
+void irb_target_constants_destroy(struct irb_target_constants *constants)
+{
+    irb_lag_reference_destroy(constants->lag);
+    constants->lag = NULL;
+}
+
 bool irb_target_constants_of(struct irb_target_constants *constants, const struct irb_run *run,
                              const struct irb_sequence *sequence, struct irb_error *err)
 {
-    *constants = (struct irb_target_constants){.exposure = run->config->render.exposure};
+    *constants = (struct irb_target_constants){.exposure = run->config->render.exposure,
+                                               .camera_rests = true};
     size_t n = (size_t)sequence->frame_count;
     struct sequence_images images = {
         .indirect = calloc(n, sizeof *images.indirect),
@@ -216,10 +304,12 @@ bool irb_target_constants_of(struct irb_target_constants *constants, const struc
         constants->eps_full = irb_relmse_eps(constants->mean_full);
         constants->eps_solution = irb_relmse_eps(constants->mean_solution);
         constants->eps_claim = irb_relmse_eps(constants->mean_claim);
-        constants->indirect_lit = exposures_of(images.indirect, images.masks, images.count,
-                                               &constants->flip_indirect);
-        constants->full_lit =
-            exposures_of(images.full, images.masks, images.count, &constants->flip_full);
+        constants->indirect_lit =
+            scales_of(images.indirect, images.masks, images.count, &constants->flip_indirect,
+                      &constants->peak_indirect);
+        constants->full_lit = scales_of(images.full, images.masks, images.count,
+                                        &constants->flip_full, &constants->peak_full);
+        ok = set_lag(constants, &images, err);
     }
     for (int i = 0; i < images.count; i++) {
         irb_image_destroy(&images.indirect[i]);

@@ -19,6 +19,9 @@ static const float qc = 0.7f;  /* exponent of colour differences */
 static const float pc = 0.4f;  /* share of the largest difference ... */
 static const float pt = 0.95f; /* ... that is taken to this value */
 
+/* One pass without an exposure. */
+static const struct irb_flip_exposures as_it_is = {0, 0, 1};
+
 enum { CHUNK = 4096 }; /* pixels that a thread compares at a time */
 
 /* `layers` holds an analysis of the image for each exposure, or is room for one. */
@@ -97,13 +100,18 @@ static bool compare_chunk(void *user, int chunk, int thread)
     return true;
 }
 
+static void compare_all(struct flip *f, int threads)
+{
+    int chunks = (int)((f->pixels + CHUNK - 1) / CHUNK);
+    irb_parallel_for(chunks, threads, compare_chunk, f);
+}
+
 static void run_pass(struct flip *f, const struct irb_image *test, struct irb_flip_display display,
                      const float *compared)
 {
     f->compared = compared;
     irb_flip_analyse(&f->analysis, test, display, f->test);
-    int chunks = (int)((f->pixels + CHUNK - 1) / CHUNK);
-    irb_parallel_for(chunks, f->analysis.threads, compare_chunk, f);
+    compare_all(f, f->analysis.threads);
 }
 
 static float difference_of_primaries(void)
@@ -124,7 +132,7 @@ static double fraction(const struct irb_flip_exposures *e, int i)
 static struct irb_flip_display display_at(const struct irb_flip_exposures *e, int i)
 {
     double exposure = e->start + fraction(e, i) * (e->stop - e->start);
-    return (struct irb_flip_display){.hdr = true, .gain = (float)exp2(exposure)};
+    return (struct irb_flip_display){.encoding = IRB_FLIP_ACES, .gain = (float)exp2(exposure)};
 }
 
 /* Room for `count` analyses, not yet filled. On failure *out is destroyed all the same. */
@@ -150,9 +158,11 @@ static bool reference_start(struct irb_flip_reference *out, const struct irb_ima
                                    image->width, image->height, count);
 }
 
-struct irb_flip_reference *irb_flip_reference_create(const struct irb_image *reference,
-                                                     const struct irb_flip_exposures *exposures,
-                                                     double ppd, int threads, struct irb_error *err)
+/* An analysis for each exposure, or the only one where a display is given. */
+static struct irb_flip_reference *prepare(const struct irb_image *reference,
+                                          const struct irb_flip_exposures *exposures,
+                                          const struct irb_flip_display *display, double ppd,
+                                          int threads, struct irb_error *err)
 {
     struct irb_flip_reference *out = malloc(sizeof *out);
     if (!out) {
@@ -164,13 +174,27 @@ struct irb_flip_reference *irb_flip_reference_create(const struct irb_image *ref
         reference_start(out, reference, exposures, exposures->count, ppd, err) &&
         irb_flip_analysis_create(&analysis, &out->filters, out->width, out->height, threads, err);
     for (int i = 0; ok && i < exposures->count; i++)
-        irb_flip_analyse(&analysis, reference, display_at(exposures, i),
+        irb_flip_analyse(&analysis, reference, display ? *display : display_at(exposures, i),
                          out->layers + (size_t)i * layers_size(out));
     irb_flip_analysis_destroy(&analysis);
     if (ok)
         return out;
     irb_flip_reference_destroy(out);
     return NULL;
+}
+
+struct irb_flip_reference *irb_flip_reference_create(const struct irb_image *reference,
+                                                     const struct irb_flip_exposures *exposures,
+                                                     double ppd, int threads, struct irb_error *err)
+{
+    return prepare(reference, exposures, NULL, ppd, threads, err);
+}
+
+struct irb_flip_reference *irb_flip_view_create(const struct irb_image *linear, double ppd,
+                                                int threads, struct irb_error *err)
+{
+    const struct irb_flip_display display = {.encoding = IRB_FLIP_LINEAR};
+    return prepare(linear, &as_it_is, &display, ppd, threads, err);
 }
 
 void irb_flip_reference_destroy(struct irb_flip_reference *reference)
@@ -181,6 +205,24 @@ void irb_flip_reference_destroy(struct irb_flip_reference *reference)
     free(reference);
 }
 
+/* What the comparison needs, but no analysis. *f may hold memory after a failure too. */
+static bool start_comparison(struct flip *f, int width, int height,
+                             const struct irb_flip_reference *reference, struct irb_error *err)
+{
+    if (width != reference->width || height != reference->height)
+        return irb_fail(err, IRB_E_INPUT, "FLIP: images differ in size: %d x %d and %d x %d", width,
+                        height, reference->width, reference->height);
+    f->reference = reference;
+    f->pixels = (size_t)width * (size_t)height;
+    f->largest_log = log2f(difference_of_primaries());
+    f->out = malloc(f->pixels * sizeof *f->out);
+    if (!f->out)
+        return irb_fail(err, IRB_E_MEMORY, "FLIP of %d x %d pixels: out of memory", width, height);
+    for (size_t i = 0; i < f->pixels; i++)
+        f->out[i] = -1; /* below every value */
+    return true;
+}
+
 /* On failure what was allocated is in *f all the same; flip_finish frees it. */
 static bool flip_start(struct flip *f, const struct irb_image *test,
                        const struct irb_flip_reference *reference, int threads,
@@ -188,19 +230,12 @@ static bool flip_start(struct flip *f, const struct irb_image *test,
 {
     if (test->channels != 3)
         return irb_fail(err, IRB_E_INTERNAL, "FLIP: expected 3 channels, found %d", test->channels);
-    if (test->width != reference->width || test->height != reference->height)
-        return irb_fail(err, IRB_E_INPUT, "FLIP: images differ in size: %d x %d and %d x %d",
-                        test->width, test->height, reference->width, reference->height);
-    f->reference = reference;
-    f->pixels = irb_image_pixels(test);
-    f->largest_log = log2f(difference_of_primaries());
+    if (!start_comparison(f, test->width, test->height, reference, err))
+        return false;
     f->test = malloc(layers_size(reference) * sizeof *f->test);
-    f->out = malloc(f->pixels * sizeof *f->out);
-    if (!f->test || !f->out)
+    if (!f->test)
         return irb_fail(err, IRB_E_MEMORY, "FLIP of %d x %d pixels: out of memory", test->width,
                         test->height);
-    for (size_t i = 0; i < f->pixels; i++)
-        f->out[i] = -1; /* below every value */
     return irb_flip_analysis_create(&f->analysis, &reference->filters, test->width, test->height,
                                     threads, err);
 }
@@ -279,6 +314,21 @@ bool irb_flip_hdr_prepared(const struct irb_image *test, const struct irb_flip_r
     return flip_finish(&f, ok, mask, map, scores, err);
 }
 
+bool irb_flip_views(const struct irb_flip_reference *test,
+                    const struct irb_flip_reference *reference, const uint8_t *mask, int threads,
+                    struct irb_image *map, struct irb_flip_scores *scores, struct irb_error *err)
+{
+    struct flip f = {0};
+    bool ok = start_comparison(&f, test->width, test->height, reference, err);
+    if (ok) {
+        f.test = test->layers;
+        f.compared = reference->layers;
+        compare_all(&f, threads);
+        f.test = NULL; /* borrowed */
+    }
+    return flip_finish(&f, ok, mask, map, scores, err);
+}
+
 bool irb_flip_hdr_maps(const struct irb_image *test, const struct irb_image *reference,
                        const uint8_t *mask, const struct irb_flip_exposures *exposures, double ppd,
                        int threads, struct irb_image *map, struct irb_image *exposure_map,
@@ -317,8 +367,7 @@ bool irb_flip_ldr(const struct irb_image *test, const struct irb_image *referenc
                   const uint8_t *mask, double ppd, int threads, struct irb_image *map,
                   struct irb_flip_scores *scores, struct irb_error *err)
 {
-    const struct irb_flip_exposures as_it_is = {0, 0, 1};
-    const struct irb_flip_display display = {.hdr = false};
+    const struct irb_flip_display display = {.encoding = IRB_FLIP_SRGB};
     struct flip f = {0};
     struct irb_flip_reference own;
     bool ok = reference_start(&own, reference, &as_it_is, 1, ppd, err) &&

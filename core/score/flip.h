@@ -67,6 +67,15 @@ bool irb_flip_hdr_maps(const struct irb_image *test, const struct irb_image *ref
                        int threads, struct irb_image *map, struct irb_image *exposure_map,
                        struct irb_flip_scores *scores, struct irb_error *err);
 
+/* LDR-FLIP in two steps, for an image that is compared more than once: a view is the analysis of
+ * one displayed image (3 channels, linear values in [0,1] as irb_display makes them), 20 bytes a
+ * pixel. Owned by the caller; freed with irb_flip_reference_destroy. Views are made with one ppd. */
+struct irb_flip_reference *irb_flip_view_create(const struct irb_image *linear, double ppd,
+                                                int threads, struct irb_error *err);
+bool irb_flip_views(const struct irb_flip_reference *test,
+                    const struct irb_flip_reference *reference, const uint8_t *mask, int threads,
+                    struct irb_image *map, struct irb_flip_scores *scores, struct irb_error *err);
+
 /* sRGB-encoded images with values in [0,1] (clamped; NaN counts as 0). */
 bool irb_flip_ldr(const struct irb_image *test, const struct irb_image *reference,
                   const uint8_t *mask, double ppd, int threads, struct irb_image *map,

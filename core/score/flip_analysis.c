@@ -43,7 +43,7 @@ static void display_row(struct irb_flip_display display, const float *restrict i
                         float *restrict out)
 {
     const float bound = 1e18f; /* its square is finite */
-    if (display.hdr) {
+    if (display.encoding == IRB_FLIP_ACES) {
         for (int i = 0; i < count; i++) {
             float v = in[i] * display.gain;
             v = v > 0 ? v : 0;
@@ -53,8 +53,10 @@ static void display_row(struct irb_flip_display display, const float *restrict i
     }
     for (int i = 0; i < count; i++) {
         float v = in[i] > 0 ? in[i] : 0;
-        out[i] = srgb_decode(v < 1 ? v : 1);
+        out[i] = v < 1 ? v : 1;
     }
+    for (int i = 0; display.encoding == IRB_FLIP_SRGB && i < count; i++)
+        out[i] = srgb_decode(out[i]);
 }
 
 IRB_FLIP_WIDE

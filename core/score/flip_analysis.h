@@ -20,9 +20,14 @@ enum irb_flip_layer {
 };
 
 /* How values become displayed, linear ones in [0,1]. */
+enum irb_flip_encoding {
+    IRB_FLIP_SRGB,   /* an sRGB-encoded image */
+    IRB_FLIP_LINEAR, /* a displayed image whose encoding is undone */
+    IRB_FLIP_ACES,   /* radiance: ACES tone map */
+};
 struct irb_flip_display {
-    bool hdr;   /* ACES tone map; else an sRGB-encoded image */
-    float gain; /* 2^exposure, of HDR */
+    enum irb_flip_encoding encoding;
+    float gain; /* 2^exposure, of IRB_FLIP_ACES */
 };
 
 /* Memory for analyses of images of one size: 28 bytes a pixel, and rows for each thread. */

@@ -10,6 +10,24 @@ const struct irb_metric_info irb_metrics[IRB_METRIC_COUNT] = {
 #undef X
 };
 
+const int irb_region_metrics[IRB_REGION_METRIC_COUNT] = {
+#define X(name) IRB_METRIC_##name,
+    IRB_REGION_METRICS(X)
+#undef X
+};
+
+int irb_region_metric_find(const char *name)
+{
+    const char *at = strchr(name, '@');
+    size_t length = at ? (size_t)(at - name) : 0;
+    for (int i = 0; at && at[1] && i < IRB_REGION_METRIC_COUNT; i++) {
+        const char *metric = irb_metrics[irb_region_metrics[i]].name;
+        if (strlen(metric) == length && !strncmp(metric, name, length))
+            return irb_region_metrics[i];
+    }
+    return -1;
+}
+
 int irb_metric_find(const char *name)
 {
     for (int i = 0; i < IRB_METRIC_COUNT; i++)

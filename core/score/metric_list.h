@@ -9,7 +9,8 @@
  * `solution` is the whole image against bounces 1 to 16; `claim` the indirect image of a method
  * that models no indirect visibility against bounce 1 without it: diagnostic, never ranked.
  *
- * Stage times have metrics of their own, stage_<name>_ms, named by the method's table of stages.
+ * Stage times have metrics of their own, stage_<name>_ms, named by the method's table of stages. In
+ * a scene's named regions the metrics of IRB_REGION_METRICS are scored too, as METRIC@REGION.
  */
 #ifndef IRB_SCORE_METRIC_LIST_H
 #define IRB_SCORE_METRIC_LIST_H
@@ -20,10 +21,21 @@
 #define IRB_METRICS_OF_IMAGE(X, image, text)                                                       \
     X(image##_rmse, IRB_RADIANCE_UNIT, LOWER, text " image: RMSE, sqrt(mean (v-r)^2)")             \
     X(image##_relmse, "", LOWER, text " image: relative MSE, mean (v-r)^2/(r^2+eps)")              \
+    X(image##_smape, "", LOWER, text " image: SMAPE, mean |v-r|/(|v|+|r|+sqrt(eps))")              \
+    X(image##_psnr, "dB", HIGHER,                                                                  \
+      text " image: PSNR, 20 log10(peak/RMSE), peak = 99.9th percentile of the reference's values") \
     X(image##_bias, IRB_RADIANCE_UNIT, ZERO, text " image: mean signed error, mean (v-r)")         \
     X(image##_energy_ratio, "", ONE, text " image: sum v / sum r")                                 \
     X(image##_flip, "", LOWER,                                                                     \
       text " image: mean HDR-FLIP (Andersson et al. 2021), exposures from the reference sequence") \
+    X(image##_ssim, "", HIGHER,                                                                    \
+      text " image: mean SSIM (Wang et al. 2004, 11x11 Gaussian, sigma 1.5) on the luma of the "   \
+           "fixed-exposure tone-mapped sRGB image")                                                \
+    X(image##_ldr_flip, "", LOWER,                                                                 \
+      text " image: mean LDR-FLIP (Andersson et al. 2020) of the fixed-exposure tone-mapped image") \
+    X(image##_temporal_flip, "", LOWER,                                                            \
+      text " image: mean LDR-FLIP, at the fixed exposure, between v_t and "                        \
+           "max(0, v_(t-1) + r_t - r_(t-1))")                                                      \
     X(image##_flicker, "", LOWER,                                                                  \
       text " image: sqrt(mean |e_t - e_(t-1)|^2) / mean r, where e = v - r")                       \
     X(image##_pop_share, "", LOWER,                                                                \
@@ -33,6 +45,9 @@
 #define IRB_METRICS(X)                                                                             \
     IRB_METRICS_OF_IMAGE(X, indirect, "indirect")                                                  \
     IRB_METRICS_OF_IMAGE(X, full, "full")                                                          \
+    X(lag, "frames", ZERO,                                                                         \
+      "shift tau, -3 to 8, with the least mean |v_t - r_(t-tau)| of the indirect image over the "  \
+      "sequence; camera at rest")                                                                  \
     X(solution_rmse, IRB_RADIANCE_UNIT, LOWER,                                                     \
       "full image against bounces 1 to 16: RMSE, sqrt(mean (v-r)^2)")                              \
     X(solution_relmse, "", LOWER,                                                                  \
@@ -46,6 +61,9 @@
       "indirect image against bounce 1 without visibility (diagnostic): sum v / sum r")            \
     X(non_finite, "pixels", LOWER, "pixels with a NaN or an infinity, left out of the errors")     \
     X(negative, "pixels", LOWER, "pixels with a negative channel")                                 \
+    X(masked_share, "", NONE,                                                                      \
+      "share of the pixels with geometry that are left out because the run's G-buffer is not the " \
+      "reference's there")                                                                         \
     X(lost_energy, "", LOWER,                                                                      \
       "share of the RSM's reflected flux that was clamped away or left out")                       \
     X(reference_noise, "", NONE,                                                                   \
@@ -57,12 +75,26 @@
     X(frame_ms_worst, "ms", LOWER, "time of a frame, the slowest one")                             \
     X(gl_bytes, "bytes", LOWER, "bytes of OpenGL objects that the method holds")
 
+/* Scored in regions: X(name). */
+#define IRB_REGION_METRICS_OF_IMAGE(X, image)                                                      \
+    X(image##_rmse) X(image##_relmse) X(image##_bias) X(image##_flip) X(image##_flicker)
+#define IRB_REGION_METRICS(X)                                                                      \
+    IRB_REGION_METRICS_OF_IMAGE(X, indirect) IRB_REGION_METRICS_OF_IMAGE(X, full)
+
 enum irb_metric {
 #define X(name, unit, better, doc) IRB_METRIC_##name,
     IRB_METRICS(X)
 #undef X
         IRB_METRIC_COUNT
 };
+
+/* The metrics that are scored in regions, as indices into irb_metrics. */
+enum {
+#define X(name) +1
+    IRB_REGION_METRIC_COUNT = 0 IRB_REGION_METRICS(X)
+#undef X
+};
+extern const int irb_region_metrics[IRB_REGION_METRIC_COUNT];
 
 /* Where the best value of a metric lies. */
 enum irb_better {
@@ -84,6 +116,9 @@ extern const struct irb_metric_info irb_metrics[IRB_METRIC_COUNT];
 
 /* Index into irb_metrics, -1 where there is none of that name. */
 int irb_metric_find(const char *name);
+
+/* The metric of "METRIC@REGION", -1 where it is none of the metrics scored in regions. */
+int irb_region_metric_find(const char *name);
 
 /* "lower", "higher", "one", "zero", "none". */
 const char *irb_better_name(enum irb_better better);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/score/metrics.h"
 
+#include "core/score/quantile.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +29,8 @@ static bool pair_finite(const struct irb_pair *pair, size_t pixel)
 struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps)
 {
     struct irb_error_scores scores = {0};
-    double square = 0, relative = 0, difference = 0, test_sum = 0, reference_sum = 0;
+    double square = 0, relative = 0, symmetric = 0, difference = 0;
+    double test_sum = 0, reference_sum = 0, level = sqrt(eps);
     size_t pixels = irb_image_pixels(pair->test);
     for (size_t i = 0; i < pixels; i++) {
         if (masked(pair->mask, i))
@@ -44,6 +47,7 @@ struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps
             double v = test[c], r = reference[c], d = v - r;
             square += d * d;
             relative += d * d / (r * r + eps);
+            symmetric += fabs(d) / (fabs(v) + fabs(r) + level);
             difference += d;
             test_sum += v;
             reference_sum += r;
@@ -52,6 +56,7 @@ struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps
     double count = (double)scores.pixels * CHANNELS; /* 0/0 is the NaN for no pixels */
     scores.rmse = sqrt(square / count);
     scores.relmse = relative / count;
+    scores.smape = symmetric / count;
     scores.bias = difference / count;
     scores.energy_ratio = reference_sum != 0 ? test_sum / reference_sum : NAN;
     return scores;
@@ -62,6 +67,31 @@ double irb_relmse_eps(double mean_reference)
     double eps = 0.01 * mean_reference * 0.01 * mean_reference;
     double least = (double)FLT_MIN * FLT_MIN;
     return eps > least ? eps : least;
+}
+
+double irb_psnr(double rmse, double peak)
+{
+    return peak > 0 ? 20 * log10(peak / rmse) : NAN;
+}
+
+double irb_value_percentile(const struct irb_image *const *images, const uint8_t *const *masks,
+                            int image_count, double fraction)
+{
+    struct irb_quantile *quantile = irb_quantile_create(fraction);
+    if (!quantile)
+        return NAN;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < image_count; i++) {
+            size_t channels = (size_t)images[i]->channels;
+            for (size_t p = 0; p < channels * irb_image_pixels(images[i]); p++) {
+                float value = images[i]->data[p];
+                if (isfinite(value) && !masked(masks ? masks[i] : NULL, p / channels))
+                    irb_quantile_add(quantile, value > 0 ? value : 0, 1);
+            }
+        }
+        irb_quantile_pass_done(quantile);
+    }
+    return irb_quantile_finish(quantile);
 }
 
 double irb_masked_mean(const struct irb_image *image, const uint8_t *mask)

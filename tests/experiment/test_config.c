@@ -260,6 +260,45 @@ static void test_overrides(void **state)
     irb_config_destroy(&c);
 }
 
+static void expect_box(const struct irb_region *region, int width, int height, int x0, int y0,
+                       int x1, int y1)
+{
+    int box[4];
+    assert_true(irb_region_pixels(region, width, height, box));
+    assert_int_equal(box[0], x0);
+    assert_int_equal(box[1], y0);
+    assert_int_equal(box[2], x1);
+    assert_int_equal(box[3], y1);
+}
+
+static void test_regions(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c,
+         "resolution: [200, 100]\n"
+         "scenes:\n"
+         "  - scene: cornell\n"
+         "    regions:\n"
+         "      - {name: left, box: [0, 0, 0.5, 1]}\n"
+         "      - {name: door, box: [10, 20, 200, 100]}\n"
+         "  - {scene: cornell, name: other, regions: []}\n"
+         "trials: [rsm]\n",
+         NULL);
+    assert_int_equal(c.scenes[0].region_count, 2);
+    assert_int_equal(c.scenes[1].region_count, 0);
+    assert_string_equal(c.scenes[0].regions[1].name, "door");
+    expect_box(&c.scenes[0].regions[0], 200, 100, 0, 0, 100, 100);
+    expect_box(&c.scenes[0].regions[0], 33, 7, 0, 0, 17, 7); /* to the nearest edge */
+    expect_box(&c.scenes[0].regions[1], 200, 100, 10, 20, 200, 100);
+    int box[4];
+    assert_false(irb_region_pixels(&c.scenes[0].regions[1], 199, 100, box));
+    irb_config_destroy(&c);
+    load(&c, "scene: cornell\nregions: [{name: a, box: [1, 0, 2, 1]}]\ntrials: [rsm]\n", NULL);
+    expect_box(&c.scenes[0].regions[0], 512, 384, 1, 0, 2, 1);
+    irb_config_destroy(&c);
+}
+
 static struct irb_key key_with(const char *text, const char *override)
 {
     struct irb_config c;
@@ -302,6 +341,9 @@ static void test_key(void **state)
         "scene: cornell\nlight: {keys: [{frame: 0}, {frame: 2}]}\ntrials: [rsm]",
         "scene: cornell\ncamera: {fov: 11}\ntrials: [rsm]",
         "scene: cornell\ncamera: {near: 0.1}\ntrials: [rsm]",
+        "scene: cornell\nregions: [{name: a, box: [0, 0, 1, 1]}]\ntrials: [rsm]",
+        "scene: cornell\nregions: [{name: b, box: [0, 0, 1, 1]}]\ntrials: [rsm]",
+        "scene: cornell\nregions: [{name: a, box: [0, 0, 1, 0.5]}]\ntrials: [rsm]",
     };
     enum { TEXTS = sizeof texts / sizeof *texts };
     struct irb_key keys[TEXTS];
@@ -320,6 +362,7 @@ int main(void)
         cmocka_unit_test(test_shortest),  cmocka_unit_test(test_built_in_view_is_kept),
         cmocka_unit_test(test_aliases),   cmocka_unit_test(test_environment),
         cmocka_unit_test(test_overrides), cmocka_unit_test(test_key),
+        cmocka_unit_test(test_regions),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

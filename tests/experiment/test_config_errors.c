@@ -140,8 +140,8 @@ static void test_top(void **state)
     expect_top("frame: 3", "@:2:1: config: unknown key 'frame'; did you mean 'frames'?");
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
-               "resolution, reference, scenes, scene, camera, light, trials, width, height, "
-               "frames, settle, rsm_resolution, exposure, repeats");
+               "resolution, reference, scenes, scene, camera, light, regions, trials, width, "
+               "height, frames, settle, rsm_resolution, exposure, repeats");
     expect_top("frames: 3\nframes: 4",
                "@:3:1: config: 'frames' stands here twice, first in line 2");
     expect_top("frames: 0", "@:2:9: frames: expected a whole number in [1, 100000]; found '0'");
@@ -187,6 +187,46 @@ static void test_reference(void **state)
                "@:2:23: reference: 'noise' stands here twice, first in line 2");
     expect_top("reference: {min_samples: 64, max_samples: 32}",
                "@: reference: expected min_samples to be at most max_samples, found 64 and 32");
+}
+
+static void test_regions(void **state)
+{
+    (void)state;
+    expect_top("regions: 3", "@:2:10: regions: expected a list of regions, found a single value");
+    expect_top("regions: [corner]", "@:2:11: region: expected a map of keys, found a single value");
+    expect_top("regions: [{name: a, bax: [0, 0, 1, 1]}]",
+               "@:2:21: region: unknown key 'bax'; did you mean 'box'?");
+    expect_top("regions: [{name: a}]",
+               "@:2:11: box: missing; expected {name: NAME, box: [x0, y0, x1, y1]}");
+    expect_top("regions: [{box: [0, 0, 1, 1]}]",
+               "@:2:11: name: missing; expected {name: NAME, box: [x0, y0, x1, y1]}");
+    expect_top("regions: [{name: a b, box: [0, 0, 1, 1]}]",
+               "@:2:18: name: expected 1 to 64 letters, digits, '.', '_' or '-', found 'a b'");
+    expect_top("regions:\n - {name: a, box: [0, 0, 1, 1]}\n - {name: a, box: [0, 0, 1, 1]}",
+               "@:4:11: two regions of the scene are called 'a'");
+    expect_top("regions: [{name: a, box: [-1, 0, 1, 1]}]",
+               "@:2:26: box: expected 0 or more, found -1");
+    expect_top("regions: [{name: a, box: [0, 0, 2.5, 3]}]",
+               "@:2:26: box: expected whole pixels, or fractions of the image that are all at most "
+               "1, found [0, 0, 2.5, 3]");
+    expect_top("regions: [{name: a, box: [9, 0, 8, 3]}]",
+               "@:2:26: box: expected [x0, y0, x1, y1] with x0 < x1 and y0 < y1, found [9, 0, 8, "
+               "3]");
+    expect_top("regions: [{name: a, box: [0, 0, 513, 384]}]",
+               "@: scene cornell: region a: expected a box with at least one pixel inside the image "
+               "of 512 x 384, found [0, 0, 513, 384]");
+    expect_top("regions: [{name: a, box: [0, 0, 0.0001, 1]}]",
+               "@: scene cornell: region a: expected a box with at least one pixel inside the image "
+               "of 512 x 384, found [0, 0, 0.0001, 1]");
+    expect("scenes: [{scene: cornell}]\nregions: []\ntrials: [rsm]\n",
+           "@:2:10: regions: expected inside the entries of scenes:, found beside it");
+    struct irb_str many = {0};
+    irb_str_printf(&many, "regions: [");
+    for (int i = 0; i < 17; i++)
+        irb_str_printf(&many, "%s{name: r%d, box: [0, 0, 1, 1]}", i ? ", " : "", i);
+    irb_str_printf(&many, "]");
+    expect_top(irb_str_text(&many), "@:2:10: regions: expected at most 16, found 17");
+    irb_str_free(&many);
 }
 
 static void test_scenes(void **state)
@@ -424,6 +464,7 @@ int main(void)
         cmocka_unit_test(test_files),        cmocka_unit_test(test_syntax),
         cmocka_unit_test(test_deep_nesting), cmocka_unit_test(test_top),
         cmocka_unit_test(test_reference),    cmocka_unit_test(test_scenes),
+        cmocka_unit_test(test_regions),
         cmocka_unit_test(test_environment),  cmocka_unit_test(test_file_scenes),
         cmocka_unit_test(test_light),        cmocka_unit_test(test_keys),
         cmocka_unit_test(test_camera),       cmocka_unit_test(test_trials),

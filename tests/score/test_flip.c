@@ -191,6 +191,38 @@ static void hdr_agrees_with_the_public_tool(void **state)
 #endif
 }
 
+/* Two views of displayed images score as the encoded images do. */
+static void views_agree_with_ldr(void **state)
+{
+    (void)state;
+    struct irb_image t = ldr(TEST_A), r = ldr(REF8), map, expected_map;
+    struct irb_flip_scores expected, found;
+    REQUIRE_OK(irb_flip_ldr(&t, &r, NULL, IRB_FLIP_PPD, 0, &expected_map, &expected, &err));
+    for (size_t i = 0; i < 3 * irb_image_pixels(&t); i++) {
+        t.data[i] = t.data[i] <= 0.04045f ? t.data[i] / 12.92f
+                                          : powf((t.data[i] + 0.055f) / 1.055f, 2.4f);
+        r.data[i] = r.data[i] <= 0.04045f ? r.data[i] / 12.92f
+                                          : powf((r.data[i] + 0.055f) / 1.055f, 2.4f);
+    }
+    struct irb_flip_reference *a = irb_flip_view_create(&t, IRB_FLIP_PPD, 2, &err);
+    struct irb_flip_reference *b = irb_flip_view_create(&r, IRB_FLIP_PPD, 1, &err);
+    REQUIRE_OK(a && b);
+    REQUIRE_OK(irb_flip_views(a, b, NULL, 2, &map, &found, &err));
+    REQUIRE_NEAR(found.mean, 0.065781, tool_error);
+    REQUIRE_NEAR(found.mean, expected.mean, 1e-7);
+    REQUIRE_NEAR(found.max, expected.max, rounding);
+    for (size_t i = 0; i < irb_image_pixels(&map); i++)
+        REQUIRE_NEAR(map.data[i], expected_map.data[i], 1e-4);
+    REQUIRE_OK(irb_flip_views(a, a, NULL, 1, NULL, &found, &err));
+    REQUIRE_NEAR(found.max, 0, 0);
+    irb_flip_reference_destroy(a);
+    irb_flip_reference_destroy(b);
+    irb_image_destroy(&t);
+    irb_image_destroy(&r);
+    irb_image_destroy(&map);
+    irb_image_destroy(&expected_map);
+}
+
 static void automatic_exposures(void **state)
 {
     (void)state;
@@ -473,6 +505,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ldr_agrees_with_the_public_tool),
+        cmocka_unit_test(views_agree_with_ldr),
         cmocka_unit_test(hdr_agrees_with_the_public_tool),
         cmocka_unit_test(automatic_exposures),
         cmocka_unit_test(pixels_agree_with_brute_force),

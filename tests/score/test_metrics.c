@@ -52,6 +52,8 @@ static void constant_offset(void **state)
     REQUIRE_NEAR(s.bias, 0.25, 1e-15);
     REQUIRE_NEAR(s.relmse, 0.0625 / 4.0004, 1e-15);
     REQUIRE_NEAR(s.energy_ratio, 1.125, 1e-15);
+    /* sqrt(eps) = 0.01 * 2; no binary fraction: each of 3000 additions rounds */
+    REQUIRE_NEAR(s.smape, 0.25 / (4.25 + 0.02), 1e-13);
     assert_int_equal(s.pixels, N);
     assert_int_equal(s.non_finite + s.negative, 0);
     irb_image_destroy(&r);
@@ -105,6 +107,7 @@ static void single_wrong_value(void **state)
     REQUIRE_NEAR(s.rmse, sqrt(9.0 / (3 * N)), 1e-15);
     REQUIRE_NEAR(s.bias, 3.0 / (3 * N), 1e-15);
     REQUIRE_NEAR(s.relmse, 9 / 1.5 / (3 * N), 1e-15);
+    REQUIRE_NEAR(s.smape, 3 / (5 + sqrt(0.5)) / (3 * N), 1e-15);
     REQUIRE_OK(irb_relmse_map(&pair, 0.5, &map, &err));
     for (size_t i = 0; i < N; i++)
         REQUIRE_NEAR(map.data[i], i == 123 ? 2 : 0, 1e-7);
@@ -181,6 +184,7 @@ static void black_reference(void **state)
     assert_true(isfinite(s.relmse));
     s = irb_score_errors(&same, eps);
     REQUIRE_NEAR(s.relmse, 0, 0);
+    REQUIRE_NEAR(s.smape, 0, 0);
     struct irb_flicker_scores f = irb_score_flicker(&same, &same, 0);
     REQUIRE_NEAR(f.flicker, 0, 0);
     REQUIRE_NEAR(f.pop_share, 0, 0);
@@ -203,6 +207,38 @@ static void one_pixel(void **state)
     REQUIRE_NEAR(irb_score_flicker(&pair, &pair, 2).flicker, 0, 0);
     irb_image_destroy(&r);
     irb_image_destroy(&t);
+}
+
+/* RMSE a tenth of the peak: 20 dB. */
+static void psnr(void **state)
+{
+    (void)state;
+    REQUIRE_NEAR(irb_psnr(0.1, 1), 20, 1e-12);
+    REQUIRE_NEAR(irb_psnr(5, 500), 40, 1e-12);
+    assert_true(isinf(irb_psnr(0, 1)) && irb_psnr(0, 1) > 0);
+    assert_true(isnan(irb_psnr(0.1, 0)) && isnan(irb_psnr(0, 0)));
+    assert_true(isnan(irb_psnr(NAN, 1)));
+}
+
+/* The k-th of the values over all images, channels and counted pixels. */
+static void percentile_of_a_sequence(void **state)
+{
+    (void)state;
+    struct irb_image a = constant(W, H, -1), b = constant(W, H, 1e9f);
+    const struct irb_image *images[] = {&a, &b};
+    uint8_t mask[N] = {0};
+    for (size_t i = 0; i < 3 * N; i++)
+        a.data[i] = (float)((i * 7) % (3 * N)) + 1; /* 1..3000, shuffled */
+    const uint8_t *masks[] = {NULL, mask};
+    REQUIRE_NEAR(irb_value_percentile(images, masks, 2, 0.999), 2997, 0);
+    REQUIRE_NEAR(irb_value_percentile(images, NULL, 1, 0.5), 1500, 0);
+    REQUIRE_NEAR(irb_value_percentile(images, NULL, 2, 0.999), 1e9, 0);
+    a.data[0] = NAN, a.data[1] = INFINITY, a.data[2] = -3;
+    REQUIRE_NEAR(irb_value_percentile(images, masks, 2, 1e-9), 0, 0);
+    REQUIRE_CMP(irb_value_percentile(images, masks, 2, 1), <=, 3000);
+    REQUIRE_NEAR(irb_value_percentile(&images[1], &masks[1], 1, 0.999), 0, 0);
+    irb_image_destroy(&a);
+    irb_image_destroy(&b);
 }
 
 /* Values whose squares exceed a float's range. */
@@ -356,6 +392,11 @@ static void every_metric_is_documented(void **state)
         assert_non_null(irb_better_name(m->better));
     }
     assert_int_equal(irb_metric_find("nonsense"), -1);
+    assert_int_equal(irb_region_metric_find("full_flip@door"), IRB_METRIC_full_flip);
+    static const char *const none[] = {"full_flip", "full_flip@", "full_fli@door", "lag@door",
+                                       "full_flipx@door", "@door"};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_int_equal(irb_region_metric_find(none[i]), -1);
     REQUIRE_NEAR(irb_metric_badness(IRB_METRIC_full_energy_ratio, 0.75), 0.25, 1e-15);
     REQUIRE_NEAR(irb_metric_badness(IRB_METRIC_full_bias, -2), 2, 0);
     REQUIRE_NEAR(irb_metric_badness(IRB_METRIC_frame_ms, 16), 16, 0);
@@ -373,6 +414,8 @@ int main(void)
         cmocka_unit_test(non_finite_and_negative_are_counted),
         cmocka_unit_test(black_reference),
         cmocka_unit_test(one_pixel),
+        cmocka_unit_test(psnr),
+        cmocka_unit_test(percentile_of_a_sequence),
         cmocka_unit_test(extreme_values),
         cmocka_unit_test(constant_error_does_not_flicker),
         cmocka_unit_test(one_pixel_pops),
