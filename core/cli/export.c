@@ -16,7 +16,7 @@ static bool is_glb(const char *path)
     return length > 4 && strcasecmp(path + length - 4, ".glb") == 0;
 }
 
-/* Camera and light of the default view at frame 0, where the scene has one. */
+/* Camera and light of a built-in's default view at frame 0, or the first that the file holds. */
 static bool export_with_view(const struct irb_builtin *builtin, const struct irb_scene *scene,
                              const char *path, struct irb_error *err)
 {
@@ -26,7 +26,8 @@ static bool export_with_view(const struct irb_builtin *builtin, const struct irb
     bool ok;
 
     if (!builtin)
-        return irb_scene_export(scene, NULL, NULL, path, err);
+        return irb_scene_export(scene, irb_scene_camera_find(scene, NULL),
+                                irb_scene_light_find(scene, NULL), path, err);
     builtin->view(&animation);
     ok = irb_animation_validate(&animation, err);
     if (ok) {

@@ -145,10 +145,8 @@ static void doorway_view(struct irb_animation *animation)
         {45, {8.6f, 2.9f, 4.4f}, {9.6f, 0, 2.2f}, {30, 26, 20}, 38, 0},
         {90, {8.6f, 2.9f, 4.4f}, {9.2f, 0.6f, 0}, {30, 26, 20}, 38, 0},
     };
-    static const struct irb_camera_key camera = {.position = {1.0f, 1.65f, 0.8f},
-                                                 .target = {5.2f, 1.0f, 3.3f},
-                                                 .up = {0, 1, 0},
-                                                 .fov = 58};
+    static const struct irb_camera_key camera = {
+        .position = {1.0f, 1.65f, 0.8f}, .target = {5.2f, 1.0f, 3.3f}, .up = {0, 1, 0}, .fov = 58};
 
     *animation = (struct irb_animation){.light_interpolation = IRB_CATMULL_ROM,
                                         .falloff = IRB_FALLOFF_COSINE};

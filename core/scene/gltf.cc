@@ -30,6 +30,9 @@ struct Parsed : irb_gltf {
     std::vector<irb_gltf_material> material_list;
     std::vector<irb_gltf_image> image_list;
     std::vector<irb_gltf_light> light_list;
+    std::vector<irb_gltf_camera> camera_list;
+    std::vector<irb_gltf_channel> channel_list;
+    std::vector<std::string> falloff_names;
     std::vector<int> texture_list, root_list;
     std::vector<const char *> required_list, used_list;
     std::string remark_text;
@@ -163,6 +166,15 @@ bool copy_numbers(const std::vector<double> &from, double *to, size_t count, siz
     return true;
 }
 
+int light_of(const tinygltf::Node &node)
+{
+    auto found = node.extensions.find("KHR_lights_punctual");
+
+    if (found == node.extensions.end() || !found->second.Has("light"))
+        return -1;
+    return found->second.Get("light").GetNumberAsInt();
+}
+
 bool copy_nodes(Parsed &parsed, irb_error *err)
 {
     for (const tinygltf::Node &node : parsed.model.nodes) {
@@ -172,6 +184,8 @@ bool copy_nodes(Parsed &parsed, irb_error *err)
         copy.name = node.name.c_str();
         copy.mesh = node.mesh;
         copy.skin = node.skin;
+        copy.camera = node.camera;
+        copy.light = light_of(node);
         copy.children = node.children.data();
         copy.child_count = int(node.children.size());
         copy.has_matrix = !node.matrix.empty();
@@ -201,7 +215,13 @@ void copy_materials(Parsed &parsed)
         copy.transformed = pbr.baseColorTexture.extensions.count("KHR_texture_transform") > 0;
         for (double channel : material.emissiveFactor)
             copy.emissive = copy.emissive || channel > 0;
-        copy.transparent = material.alphaMode != "OPAQUE" && !material.alphaMode.empty();
+        copy.transparent = material.alphaMode == "BLEND";
+        copy.alpha_cutoff = material.alphaMode == "MASK" ? material.alphaCutoff : 0;
+        copy.metallic = pbr.metallicFactor;
+        copy.roughness = pbr.roughnessFactor;
+        copy.specular_given = (material.values.count("metallicFactor") && copy.metallic > 0) ||
+                              (material.values.count("roughnessFactor") && copy.roughness < 1);
+        copy.metallic_texture = pbr.metallicRoughnessTexture.index >= 0;
         copy.specular_glossiness =
             material.extensions.count("KHR_materials_pbrSpecularGlossiness") > 0;
         parsed.material_list.push_back(copy);
@@ -237,19 +257,62 @@ void copy_roots(Parsed &parsed)
             parsed.root_list.push_back(int(i));
 }
 
+void copy_lights(Parsed &parsed)
+{
+    for (const tinygltf::Light &light : parsed.model.lights) {
+        const tinygltf::Value &extras = light.extras;
+        bool named = extras.Has("falloff") && extras.Get("falloff").IsString();
+
+        parsed.falloff_names.push_back(named ? extras.Get("falloff").Get<std::string>() : "");
+    }
+    for (size_t i = 0; i < parsed.model.lights.size(); i++) {
+        const tinygltf::Light &light = parsed.model.lights[i];
+        irb_gltf_light copy = {};
+
+        copy.name = light.name.c_str();
+        copy.type = light.type.c_str();
+        for (size_t c = 0; c < 3; c++)
+            copy.color[c] = c < light.color.size() ? light.color[c] : 1;
+        copy.intensity = light.intensity;
+        copy.inner = light.spot.innerConeAngle;
+        copy.outer = light.spot.outerConeAngle;
+        copy.falloff = parsed.falloff_names[i].c_str();
+        if (light.extras.Has("half_width"))
+            copy.half_width = light.extras.Get("half_width").GetNumberAsDouble();
+        parsed.light_list.push_back(copy);
+    }
+}
+
+void copy_cameras_and_channels(Parsed &parsed)
+{
+    for (const tinygltf::Camera &camera : parsed.model.cameras)
+        parsed.camera_list.push_back({camera.name.c_str(), camera.type == "perspective",
+                                      camera.perspective.yfov, camera.perspective.znear,
+                                      camera.perspective.zfar});
+    if (parsed.model.animations.empty())
+        return;
+    const tinygltf::Animation &animation = parsed.model.animations[0];
+    for (const tinygltf::AnimationChannel &channel : animation.channels) {
+        if (channel.sampler < 0 || size_t(channel.sampler) >= animation.samplers.size())
+            continue;
+        const tinygltf::AnimationSampler &sampler = animation.samplers[size_t(channel.sampler)];
+        parsed.channel_list.push_back({channel.target_node, sampler.input, sampler.output,
+                                       channel.target_path.c_str(), sampler.interpolation.c_str()});
+    }
+}
+
 void publish(Parsed &parsed)
 {
     const tinygltf::Model &model = parsed.model;
 
-    for (const tinygltf::Light &light : model.lights)
-        parsed.light_list.push_back({light.name.c_str(), light.type.c_str()});
+    copy_lights(parsed);
+    copy_cameras_and_channels(parsed);
     for (const std::string &name : model.extensionsRequired)
         parsed.required_list.push_back(name.c_str());
     for (const std::string &name : model.extensionsUsed)
         parsed.used_list.push_back(name.c_str());
     parsed.version = model.asset.version.c_str();
     parsed.remark = parsed.remark_text.c_str();
-    parsed.camera_count = int(model.cameras.size());
     parsed.animation_count = int(model.animations.size());
 #define PUBLISH(field, count, list)                                                                \
     do {                                                                                           \
@@ -264,6 +327,8 @@ void publish(Parsed &parsed)
     PUBLISH(materials, material_count, material_list);
     PUBLISH(images, image_count, image_list);
     PUBLISH(lights, light_count, light_list);
+    PUBLISH(cameras, camera_count, camera_list);
+    PUBLISH(channels, channel_count, channel_list);
     PUBLISH(texture_images, texture_count, texture_list);
     PUBLISH(roots, root_count, root_list);
     PUBLISH(required, required_count, required_list);

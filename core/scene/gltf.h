@@ -68,7 +68,7 @@ struct irb_gltf_mesh {
 
 struct irb_gltf_node {
     const char *name;
-    int mesh, skin;
+    int mesh, skin, light, camera; /* light: KHR_lights_punctual */
     const int *children;
     int child_count;
     bool has_matrix;
@@ -82,7 +82,11 @@ struct irb_gltf_material {
     int base_color_texture, base_color_texcoord;
     bool transformed; /* the texture has KHR_texture_transform */
     bool emissive;
-    bool transparent;         /* alphaMode is not OPAQUE */
+    bool transparent;    /* alphaMode is BLEND */
+    double alpha_cutoff; /* alphaMode MASK, else 0 */
+    double metallic, roughness;
+    bool specular_given;      /* the file states metallic > 0 or roughness < 1 itself */
+    bool metallic_texture;    /* there is a metallic-roughness texture */
     bool specular_glossiness; /* KHR_materials_pbrSpecularGlossiness: its colours are not read */
 };
 
@@ -95,6 +99,22 @@ struct irb_gltf_image {
 
 struct irb_gltf_light {
     const char *name, *type;
+    double color[3], intensity;
+    double inner, outer; /* spot, radians */
+    const char *falloff; /* our own extras: a falloff's name, "" for none */
+    double half_width;   /* our own extras: of a directional beam, 0 for none */
+};
+
+struct irb_gltf_camera {
+    const char *name;
+    bool perspective;
+    double yfov, znear, zfar; /* radians, metres; zfar 0: infinite */
+};
+
+/* A channel of the first animation. */
+struct irb_gltf_channel {
+    int node, input, output;          /* node; accessors */
+    const char *path, *interpolation; /* "translation", ...; "LINEAR", "STEP", "CUBICSPLINE" */
 };
 
 struct irb_gltf {
@@ -108,13 +128,15 @@ struct irb_gltf {
     const struct irb_gltf_material *materials;
     const struct irb_gltf_image *images;
     const struct irb_gltf_light *lights;
-    const int *texture_images;   /* image of each texture */
-    const int *roots;            /* nodes of the scene that is shown */
-    const char *const *required; /* extensionsRequired */
-    const char *const *used;     /* extensionsUsed */
+    const struct irb_gltf_camera *cameras;
+    const struct irb_gltf_channel *channels; /* of the first animation */
+    const int *texture_images;               /* image of each texture */
+    const int *roots;                        /* nodes of the scene that is shown */
+    const char *const *required;             /* extensionsRequired */
+    const char *const *used;                 /* extensionsUsed */
     int buffer_count, view_count, accessor_count, mesh_count, node_count, material_count;
     int image_count, light_count, texture_count, root_count, required_count, used_count;
-    int camera_count, animation_count;
+    int camera_count, animation_count, channel_count;
 };
 
 /* Parses the contents of a .gltf (binary false) or .glb file. External files are looked for in

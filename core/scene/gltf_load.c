@@ -3,6 +3,7 @@
 
 #include "core/base/fs.h"
 #include "core/base/str.h"
+#include "core/scene/motion.h"
 #include "core/scene/vec.h"
 
 #include <stdio.h>
@@ -130,21 +131,13 @@ static void warn_about_dropped(const struct gltf_loader *loader)
 
     if (gltf->remark[0])
         irb_warn(loader->log, "%s: %s", loader->path, gltf->remark);
-    for (int i = 0; i < gltf->light_count; i++)
-        irb_warn(loader->log,
-                 "%s: light %d '%s' (%s) is dropped, the light comes from the "
-                 "experiment",
-                 loader->path, i, gltf->lights[i].name, gltf->lights[i].type);
     for (int i = 0; i < gltf->used_count; i++)
         if (strstr(gltf->used[i], "lights_image_based"))
             irb_warn(loader->log, "%s: environment light (%s) is dropped", loader->path,
                      gltf->used[i]);
-    if (gltf->camera_count > 0)
-        irb_warn(loader->log, "%s: %d cameras are dropped, the camera comes from the experiment",
-                 loader->path, gltf->camera_count);
-    if (gltf->animation_count > 0)
-        irb_warn(loader->log, "%s: %d animations are dropped, the scene stays at rest",
-                 loader->path, gltf->animation_count);
+    if (gltf->animation_count > 1)
+        irb_warn(loader->log, "%s: of %d animations the first is used", loader->path,
+                 gltf->animation_count);
 }
 
 static void warn_about_counts(const struct gltf_loader *loader)
@@ -169,43 +162,15 @@ static void warn_about_counts(const struct gltf_loader *loader)
 
 /* ---- Nodes ---- */
 
-static void multiply(const double a[16], const double b[16], double out[16])
-{
-    for (int column = 0; column < 4; column++)
-        for (int row = 0; row < 4; row++) {
-            double sum = 0;
-
-            for (int k = 0; k < 4; k++)
-                sum += a[4 * k + row] * b[4 * column + k];
-            out[4 * column + row] = sum;
-        }
-}
-
-/* T * R * S (glTF 2.0, 3.5.3). */
 static void local_matrix(const struct irb_gltf_node *node, double out[16])
 {
-    const double *s = node->scale, *t = node->translation, *q = node->rotation;
-    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    double x = 0, y = 0, z = 0, w = 1;
+    struct irb_motion_node local = {.has_matrix = node->has_matrix};
 
-    if (node->has_matrix) {
-        memcpy(out, node->matrix, sizeof node->matrix);
-        return;
-    }
-    if (length > 0) {
-        x = q[0] / length;
-        y = q[1] / length;
-        z = q[2] / length;
-        w = q[3] / length;
-    }
-    const double columns[4][4] = {{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
-                                   s[0] * 2 * (x * z - y * w), 0},
-                                  {s[1] * 2 * (x * y - z * w), s[1] * (1 - 2 * (x * x + z * z)),
-                                   s[1] * 2 * (y * z + x * w), 0},
-                                  {s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
-                                   s[2] * (1 - 2 * (x * x + y * y)), 0},
-                                  {t[0], t[1], t[2], 1}};
-    memcpy(out, columns, sizeof columns);
+    memcpy(local.matrix, node->matrix, sizeof local.matrix);
+    memcpy(local.translation, node->translation, sizeof local.translation);
+    memcpy(local.rotation, node->rotation, sizeof local.rotation);
+    memcpy(local.scale, node->scale, sizeof local.scale);
+    irb_motion_local(&local, out);
 }
 
 static bool check_matrix(const double m[16], int node, const char *name, struct irb_error *err)
@@ -222,12 +187,16 @@ struct walk {
     int depth;
     bool *seen;
     double (*world)[16]; /* of each node that was pushed */
+    int *parents;        /* of each node, or -1 */
+    int *order;          /* nodes as they were visited, parents first */
+    int visited;
 };
 
 static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
+/* `parent` is -1 for the roots. */
 static bool push_nodes(const struct irb_gltf *gltf, struct walk *walk, const int *nodes, int count,
-                       const double parent[16], struct irb_error *err)
+                       int parent, struct irb_error *err)
 {
     for (int i = count - 1; i >= 0; i--) { /* so that they come off in the file's order */
         double local[16];
@@ -242,7 +211,8 @@ static bool push_nodes(const struct irb_gltf *gltf, struct walk *walk, const int
                             gltf->nodes[node].name);
         walk->seen[node] = true;
         local_matrix(&gltf->nodes[node], local);
-        multiply(parent, local, walk->world[node]);
+        walk->parents[node] = parent;
+        irb_motion_multiply(parent < 0 ? identity : walk->world[parent], local, walk->world[node]);
         if (!check_matrix(walk->world[node], node, gltf->nodes[node].name, err))
             return false;
         walk->stack[walk->depth++] = node;
@@ -250,23 +220,51 @@ static bool push_nodes(const struct irb_gltf *gltf, struct walk *walk, const int
     return true;
 }
 
+/* Remembers the node of the objects that its mesh has become. */
+static bool note_objects(struct gltf_loader *loader, int node)
+{
+    int count = loader->builder.failure ? 0 : loader->builder.scene->object_count;
+    int *grown;
+
+    if (count > loader->object_capacity) {
+        grown = realloc(loader->object_nodes, 2 * (size_t)count * sizeof *grown);
+        if (!grown)
+            return false;
+        for (int i = loader->object_capacity; i < 2 * count; i++)
+            grown[i] = -1;
+        loader->object_nodes = grown;
+        loader->object_capacity = 2 * count;
+    }
+    for (int i = loader->first_object; i < count; i++)
+        loader->object_nodes[i] = node;
+    loader->first_object = count;
+    if (count > 0 && loader->builder.scene->objects[count - 1].triangle_count == 0)
+        loader->first_object--; /* its place goes to the next object */
+    return true;
+}
+
 static bool visit_nodes(struct gltf_loader *loader, struct walk *walk, struct irb_error *err)
 {
     const struct irb_gltf *gltf = loader->gltf;
 
-    if (!push_nodes(gltf, walk, gltf->roots, gltf->root_count, identity, err))
+    if (!push_nodes(gltf, walk, gltf->roots, gltf->root_count, -1, err))
         return false;
     while (walk->depth > 0) {
         int index = walk->stack[--walk->depth];
         const struct irb_gltf_node *node = &gltf->nodes[index];
 
+        walk->order[walk->visited++] = index;
         loader->skins += node->skin >= 0;
+        gltf_light(loader, node, walk->world[index]);
+        gltf_camera(loader, node, walk->world[index]);
         if (node->mesh >= 0 && !gltf_mesh(loader, node->mesh, node->name, walk->world[index], err))
             return false;
-        if (!push_nodes(gltf, walk, node->children, node->child_count, walk->world[index], err))
+        if (!note_objects(loader, index))
+            return irb_fail(err, IRB_E_MEMORY, "out of memory");
+        if (!push_nodes(gltf, walk, node->children, node->child_count, index, err))
             return false;
     }
-    return true;
+    return gltf_motion(loader, walk->order, walk->visited, walk->parents, err);
 }
 
 static bool add_nodes(struct gltf_loader *loader, struct irb_error *err)
@@ -274,16 +272,20 @@ static bool add_nodes(struct gltf_loader *loader, struct irb_error *err)
     size_t count = (size_t)loader->gltf->node_count;
     struct walk walk = {.stack = malloc((count + 1) * sizeof *walk.stack),
                         .seen = calloc(count + 1, sizeof *walk.seen),
-                        .world = malloc((count + 1) * sizeof *walk.world)};
+                        .world = malloc((count + 1) * sizeof *walk.world),
+                        .parents = malloc((count + 1) * sizeof *walk.parents),
+                        .order = malloc((count + 1) * sizeof *walk.order)};
     bool ok;
 
-    if (!walk.stack || !walk.seen || !walk.world)
+    if (!walk.stack || !walk.seen || !walk.world || !walk.parents || !walk.order)
         ok = irb_fail(err, IRB_E_MEMORY, "out of memory for %zu nodes", count);
     else
         ok = visit_nodes(loader, &walk, err);
     free(walk.stack);
     free(walk.seen);
     free(walk.world);
+    free(walk.parents);
+    free(walk.order);
     return ok;
 }
 
@@ -319,6 +321,8 @@ static struct irb_scene *convert(struct gltf_loader *loader, struct irb_error *e
         irb_builder_abandon(&loader->builder);
         return NULL;
     }
+    if (!loader->builder.failure)
+        gltf_warn_about_lights(loader);
     warn_about_counts(loader);
     scene = irb_builder_finish(&loader->builder, err);
     if (scene && scene->triangle_count == 0) {
@@ -339,7 +343,8 @@ struct irb_scene *irb_gltf_load(const char *path, struct irb_log *log, struct ir
         return NULL;
     loader.materials = unset_slots(loader.gltf->material_count);
     loader.textures = unset_slots(loader.gltf->image_count);
-    if (!loader.materials || !loader.textures)
+    loader.lights_placed = calloc((size_t)loader.gltf->light_count + 1, sizeof(bool));
+    if (!loader.materials || !loader.textures || !loader.lights_placed)
         irb_fail(err, IRB_E_MEMORY, "out of memory");
     else if (check_asset(loader.gltf, err))
         scene = convert(&loader, err);
@@ -347,6 +352,8 @@ struct irb_scene *irb_gltf_load(const char *path, struct irb_log *log, struct ir
         irb_error_prefix(err, "%s", path);
     free(loader.materials);
     free(loader.textures);
+    free(loader.lights_placed);
+    free(loader.object_nodes);
     irb_gltf_destroy(loader.gltf);
     return scene;
 }

@@ -7,12 +7,22 @@
  * triangles, strips and fans with positions, normals and one texture coordinate set; base colour
  * factor and texture.
  *
- * What that becomes: k_d = base colour (factor times texture), k_s = 0: Lambert, whatever metallic
- * and roughness say. Lights, cameras, emission, skins, morph targets, animations, transparency and
- * texture transforms are dropped with a warning each. Missing normals become flat normals (glTF
- * 2.0, 3.7.2.1), so that such triangles share no vertices; a normal that is zero or not finite
- * becomes the area-weighted mean of its triangles' (one counted warning); degenerate triangles are
- * dropped (one counted warning). Missing texture coordinates are 0.
+ * What that becomes: k_d = base colour (factor times texture), k_s = 0: Lambert. Only where the
+ * file itself states metallicFactor > 0 or roughnessFactor < 1 and has no metallic-roughness
+ * texture there is a highlight: with metallic m, roughness r, base colour b (the factor),
+ *     F0 = lerp(0.04, b, m), k_d = b (1 - m), k_s = F0, alpha = clamp(2/r^4 - 2, 1, 1e4)
+ * (alpha: the Blinn exponent of a Beckmann roughness r^2, Walter et al. 2007). The lobe k_s
+ * (n.h)^alpha/pi is not normalised; at normal incidence it reflects rho_s = k_s 8 (1 -
+ * 2^(-(alpha+2)/2))/(alpha + 2). To conserve energy k_s is scaled so that rho_s <= 1, then k_d <= 1
+ * - rho_s. Files with textures for it stay Lambert, with a warning.
+ *
+ * Lights (spot and directional of KHR_lights_punctual, W/sr and W/m2 one to one), perspective
+ * cameras and the first animation's translations, rotations and scales go into the scene. The alpha
+ * mask goes into the material. Emission, point lights, skins, morph targets, further animations,
+ * blending and texture transforms are dropped with a warning each. Missing normals become flat
+ * normals (glTF 2.0, 3.7.2.1), so that such triangles share no vertices; a normal that is zero or
+ * not finite becomes the area-weighted mean of its triangles' (one counted warning); degenerate
+ * triangles are dropped (one counted warning). Missing texture coordinates are 0.
  */
 #ifndef IRB_SCENE_GLTF_LOAD_H
 #define IRB_SCENE_GLTF_LOAD_H
@@ -35,6 +45,9 @@ struct gltf_loader {
     int *textures;  /* scene's texture for a glTF image, -1 until it is used */
     long degenerate, bad_normals, unlit_primitives; /* counted for the warnings at the end */
     long morphs, skins;
+    bool *lights_placed;               /* whether a node holds the light */
+    int *object_nodes;                 /* glTF node of each object */
+    int object_capacity, first_object; /* the next object that has no node yet */
 };
 
 /* An accessor whose bytes are known to lie within its buffer. */
@@ -57,6 +70,18 @@ bool gltf_view_bytes(const struct irb_gltf *gltf, int view, const unsigned char 
 
 /* The scene's material for the glTF material (-1: the default); false on failure. */
 bool gltf_material(struct gltf_loader *loader, int index, int *out, struct irb_error *err);
+
+/* Adds the node's light, or camera, to the scene. What cannot be one is warned about. */
+void gltf_light(struct gltf_loader *loader, const struct irb_gltf_node *node,
+                const double world[16]);
+void gltf_camera(struct gltf_loader *loader, const struct irb_gltf_node *node,
+                 const double world[16]);
+void gltf_warn_about_lights(const struct gltf_loader *loader);
+
+/* The first animation, over the `count` nodes in `order` (parents first); `parents` holds the
+ * parent of each glTF node, or -1. Leaves the scene without one where nothing moves. */
+bool gltf_motion(struct gltf_loader *loader, const int *order, int count, const int *parents,
+                 struct irb_error *err);
 
 /* Appends the mesh as one object a primitive, transformed by `world` (column-major). */
 bool gltf_mesh(struct gltf_loader *loader, int mesh, const char *node_name, const double world[16],

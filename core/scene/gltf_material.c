@@ -120,6 +120,36 @@ static bool base_color(const struct gltf_loader *loader, const struct irb_gltf_m
     return true;
 }
 
+/* Highest Blinn exponent: a lobe of about a degree. Reflectance of a dielectric of index 1.5. */
+#define MAX_EXPONENT 1e4
+#define DIELECTRIC_F0 0.04
+
+/* The mapping of gltf_load.h. */
+static void set_specular(const struct gltf_loader *loader, const struct irb_gltf_material *material,
+                         int index, struct irb_material *out)
+{
+    double m = fmin(fmax(material->metallic, 0), 1), r = fmin(fmax(material->roughness, 0), 1);
+    double alpha = fmin(fmax(2 / (r * r * r * r) - 2, 1), MAX_EXPONENT); /* r = 0: infinity */
+    double lobe = 8 * (1 - pow(2, -(alpha + 2) / 2)) / (alpha + 2);
+
+    if (!material->specular_given)
+        return;
+    if (material->metallic_texture) {
+        irb_warn(loader->log,
+                 "%s: material %d '%s': its metallic-roughness texture is not read, it is Lambert",
+                 loader->path, index, material->name);
+        return;
+    }
+    out->exponent = (float)alpha;
+    for (int i = 0; i < 3; i++) {
+        double base = out->diffuse[i];
+        double specular = fmin(DIELECTRIC_F0 + (base - DIELECTRIC_F0) * m, 1 / lobe);
+
+        out->specular[i] = (float)fmin(specular, 1);
+        out->diffuse[i] = (float)fmin(base * (1 - m), fmax(0, 1 - lobe * out->specular[i]));
+    }
+}
+
 bool gltf_material(struct gltf_loader *loader, int index, int *out, struct irb_error *err)
 {
     static const float default_white[3] = {1, 1, 1}; /* glTF 2.0, 3.9.6 */
@@ -141,8 +171,13 @@ bool gltf_material(struct gltf_loader *loader, int index, int *out, struct irb_e
             !load_texture(loader, material, &texture, err))
             return irb_error_prefix(err, "material %d '%s'", index, material->name);
         *slot = irb_builder_material(&loader->builder, material->name, diffuse);
-        if (!loader->builder.failure)
-            loader->builder.scene->materials[*slot].diffuse_texture = texture;
+        if (!loader->builder.failure) {
+            struct irb_material *made = &loader->builder.scene->materials[*slot];
+
+            made->diffuse_texture = texture;
+            made->alpha_cutoff = (float)fmin(fmax(material->alpha_cutoff, 0), 1);
+            set_specular(loader, material, index, made);
+        }
     }
     *out = *slot;
     return true;

@@ -232,8 +232,11 @@ static void add_camera(struct writer *writer, const struct irb_camera *camera, s
     add_node(writer, "camera", matrix, "\"camera\":0");
     irb_str_printf(out,
                    ",\n\"cameras\":[{\"name\":\"camera\",\"type\":\"perspective\",\"perspective\":"
-                   "{\"yfov\":%.9g,\"znear\":%.9g,\"zfar\":%.9g}}]",
-                   camera->vertical_fov, camera->z_near, camera->z_far);
+                   "{\"yfov\":%.9g,\"znear\":%.9g",
+                   camera->vertical_fov, camera->z_near);
+    if (camera->z_far > camera->z_near) /* else infinite */
+        irb_str_printf(out, ",\"zfar\":%.9g", camera->z_far);
+    irb_str_printf(out, "}}]");
 }
 
 static void add_light(struct writer *writer, const struct irb_light *light, struct irb_str *out)

@@ -4,6 +4,7 @@
 #include "core/base/str.h"
 #include "core/scene/builtin.h"
 #include "core/scene/gltf_load.h"
+#include "core/scene/motion.h"
 #include "core/scene/vec.h"
 
 #include <stdlib.h>
@@ -23,6 +24,9 @@ void irb_scene_destroy(struct irb_scene *scene)
     free(scene->indices);
     free(scene->materials);
     free(scene->objects);
+    free(scene->lights);
+    free(scene->cameras);
+    irb_motion_destroy(scene->motion);
     free(scene);
 }
 
@@ -74,6 +78,8 @@ static void hash_material(struct irb_hash *hash, const struct irb_material *mate
     irb_hash_floats(hash, material->specular, 3);
     irb_hash_floats(hash, &material->exponent, 1);
     irb_hash_u64(hash, (uint64_t)(material->diffuse_texture + 1));
+    if (material->alpha_cutoff > 0)
+        irb_hash_floats(hash, &material->alpha_cutoff, 1);
 }
 
 static void hash_object(struct irb_hash *hash, const struct irb_object *object)
@@ -110,6 +116,47 @@ struct irb_key irb_scene_key(const struct irb_scene *scene)
     for (int i = 0; i < scene->object_count; i++)
         hash_object(hash, &scene->objects[i]);
     return irb_hash_finish(hash);
+}
+
+/* ---- What the file holds besides surfaces ---- */
+
+bool irb_scene_animate(struct irb_scene *scene, double seconds, struct irb_error *err)
+{
+    double(*world)[16];
+
+    if (!scene->motion)
+        return true;
+    world = malloc(((size_t)scene->motion->node_count + 1) * sizeof *world);
+    if (!world)
+        return irb_fail(err, IRB_E_MEMORY, "out of memory for the animation's nodes");
+    irb_motion_evaluate(scene->motion, seconds, world);
+    for (int i = 0; i < scene->object_count; i++)
+        irb_motion_transform(scene->motion, world, i, scene->objects[i].transform);
+    free(world);
+    return true;
+}
+
+bool irb_scene_duration(const struct irb_scene *scene, double *first, double *last)
+{
+    *first = scene->motion ? scene->motion->first : 0;
+    *last = scene->motion ? scene->motion->last : 0;
+    return scene->motion != NULL;
+}
+
+const struct irb_light *irb_scene_light_find(const struct irb_scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->light_count; i++)
+        if (!name || strcmp(scene->lights[i].name, name) == 0)
+            return &scene->lights[i].light;
+    return NULL;
+}
+
+const struct irb_camera *irb_scene_camera_find(const struct irb_scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->camera_count; i++)
+        if (!name || strcmp(scene->cameras[i].name, name) == 0)
+            return &scene->cameras[i].camera;
+    return NULL;
 }
 
 /* ---- Bounds ---- */

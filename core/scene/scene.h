@@ -4,7 +4,7 @@
  * Metres, y up, right-handed. Surfaces are two-sided diffuse reflectors: the side that is seen (or
  * lit) is the side that reflects, nothing passes through.
  *
- * Does not: know lights, cameras, OpenGL or Embree.
+ * Does not: know OpenGL or Embree. Lights and cameras are only carried along from a file.
  */
 #ifndef IRB_SCENE_SCENE_H
 #define IRB_SCENE_SCENE_H
@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/log.h"
+#include "core/scene/light.h"
 
 #include <stdint.h>
 
@@ -22,6 +23,7 @@ struct irb_material {
     float specular[3];   /* k_s, in [0,1] */
     float exponent;      /* alpha, >= 1 */
     int diffuse_texture; /* index into textures, or -1 */
+    float alpha_cutoff;  /* > 0: surface only where the texture's alpha reaches this; 0: opaque */
 };
 
 /* 8-bit RGBA texture, colour sRGB-encoded (glTF base colour); row 0 at the top (glTF v = 0). */
@@ -39,6 +41,17 @@ struct irb_object {
     float transform[16]; /* column-major; rest position -> current position; identity at rest */
 };
 
+/* A light or camera that the scene's file holds, in world space, at rest. A directional light's
+ * half_width and a camera's z_far are 0 where the file leaves them open. */
+struct irb_scene_light {
+    char name[64];
+    struct irb_light light;
+};
+struct irb_scene_camera {
+    char name[64];
+    struct irb_camera camera;
+};
+
 struct irb_scene {
     char name[64];
     uint32_t vertex_count, triangle_count;
@@ -53,6 +66,11 @@ struct irb_scene {
     struct irb_object *objects;
     int object_count;
     float bounds_min[3], bounds_max[3]; /* of all vertices that a triangle uses, at rest */
+    struct irb_scene_light *lights;     /* of the file, the primary one first; owned */
+    int light_count;
+    struct irb_scene_camera *cameras; /* owned */
+    int camera_count;
+    struct irb_motion *motion; /* the file's animation, or NULL; owned */
 };
 
 void irb_scene_destroy(struct irb_scene *scene); /* frees the scene too; NULL is fine */
@@ -60,9 +78,20 @@ void irb_scene_destroy(struct irb_scene *scene); /* frees the scene too; NULL is
 /* Loads a built-in by its name, or a .gltf/.glb file by its path. IRB_E_INPUT names what is wrong:
  * a missing or truncated file, an index out of range, a non-finite vertex (mesh and number), no
  * triangles, a texture that is missing. Warnings (dropped lights, degenerate triangles) go to log.
- * glTF materials become Lambert: k_d = base colour, k_s = 0; see core/scene/gltf_load.h. */
+ * What glTF materials become: core/scene/gltf_load.h. */
 struct irb_scene *irb_scene_load(const char *name_or_path, struct irb_log *log,
                                  struct irb_error *err);
+
+/* Moves the objects to where the scene's own animation has them at `seconds` (sets
+ * irb_object.transform; objects that it does not move keep theirs). Times before the first and
+ * after the last key hold those. Nothing happens in a scene without one. IRB_E_MEMORY. */
+bool irb_scene_animate(struct irb_scene *scene, double seconds, struct irb_error *err);
+/* When its animation starts and ends, seconds; false (and 0, 0) without one. */
+bool irb_scene_duration(const struct irb_scene *scene, double *first, double *last);
+
+/* The file's light of that name (NULL: the first); NULL where there is none. Cameras likewise. */
+const struct irb_light *irb_scene_light_find(const struct irb_scene *scene, const char *name);
+const struct irb_camera *irb_scene_camera_find(const struct irb_scene *scene, const char *name);
 
 /* Content hash of everything that can change an image. */
 struct irb_key irb_scene_key(const struct irb_scene *scene);
