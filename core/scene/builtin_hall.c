@@ -214,7 +214,7 @@ static void build_columns(const struct kit sides[2], struct irb_builder *builder
     irb_builder_object(builder, "columns", STONE);
     for (int s = 0; s < 2; s++)
         for (int k = 0; k < BAYS; k++)
-            kit_column(&sides[s], bay_start(k), 0, 4.0, IMPOST + 0.02, 0.4, 20);
+            kit_column(&sides[s], bay_start(k), 0, 4.0, IMPOST + 0.02, 0.4, 18);
     irb_builder_object(builder, "capital leaves", STONE);
     for (int s = 0; s < 2; s++)
         for (int k = 0; k < BAYS; k++)
@@ -250,7 +250,7 @@ static void build_aisle_vaults(const struct kit sides[2], struct irb_builder *bu
         for (int bay = 0; bay < BAYS; bay++) {
             struct kit at = kit_place(&sides[s], bay_start(bay) + BAY / 2, IMPOST, 6.2, 0);
 
-            kit_groin_vault(&at, BAY / 2 + 0.02, 1.85, 1.85, 7);
+            kit_groin_vault(&at, BAY / 2 + 0.02, 1.85, 1.85, 6);
         }
     irb_builder_object(builder, "aisle ribs", STONE);
     for (int s = 0; s < 2; s++)
@@ -312,7 +312,7 @@ static void transverse_arch(const struct kit *kit, double half_width)
     kit_profile_arc(&rib, -0.2, -w + 0.1, 0.08, 0.08, 90, 270, 3);
     kit_profile_point(&rib, -0.2, -w);
     kit_profile_point(&rib, 0.2, -w);
-    kit_arch(&across, &rib, 0, SPRING, NAVE_HALF, NAVE_HALF, 0, 180, 32);
+    kit_arch(&across, &rib, 0, SPRING, NAVE_HALF, NAVE_HALF, 0, 180, 26);
 }
 
 static void pilaster(const struct kit *kit, double half_width, double foot)
