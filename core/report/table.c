@@ -43,6 +43,12 @@ static void json_row(const struct irb_table_data *data, const struct irb_table_r
         irb_str_printf(out, ", \"%s\": ", irb_metrics[i].name);
         irb_str_json_number(out, row->metrics[i]);
     }
+    for (int i = 0; i < data->region_metric_count; i++) {
+        irb_str_printf(out, ", ");
+        irb_str_json_string(out, data->region_metrics[i]);
+        irb_str_printf(out, ": ");
+        irb_str_json_number(out, row->regions[i]);
+    }
     for (int i = 0; i < data->stage_count; i++) {
         char *key = irb_asprintf("stage_%s_ms", data->stages[i]);
         irb_str_printf(out, ", ");
@@ -110,6 +116,8 @@ static void write_csv(const struct irb_table_data *data, struct irb_str *out)
     irb_str_printf(out, "scene,method,trial,params");
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         irb_str_printf(out, ",%s", irb_metrics[i].name);
+    for (int i = 0; i < data->region_metric_count; i++)
+        irb_str_printf(out, ",%s", data->region_metrics[i]);
     for (int i = 0; i < data->stage_count; i++) {
         char *name = irb_asprintf("stage_%s_ms", data->stages[i]);
         irb_str_printf(out, ",");
@@ -129,6 +137,8 @@ static void write_csv(const struct irb_table_data *data, struct irb_str *out)
         free(params);
         for (int m = 0; m < IRB_METRIC_COUNT; m++)
             csv_number(out, row->metrics[m]);
+        for (int r = 0; r < data->region_metric_count; r++)
+            csv_number(out, row->regions[r]);
         for (int s = 0; s < data->stage_count; s++)
             csv_number(out, row->stage_ms[s]);
         irb_str_printf(out, "\n");

@@ -3,8 +3,9 @@
  * The results of a run as a table, one row for each trial of each scene.
  *
  * csv and json hold everything: scene, method, trial, params, then one column for each metric of
- * core/score/metric_list.h, then stage_<name>_ms for each stage that any trial has. text and md
- * show the metrics that matter most, grouped by scene, with the best value of each column marked.
+ * core/score/metric_list.h, METRIC@REGION for each region that any scene has, then
+ * stage_<name>_ms for each stage that any trial has. text and md show the metrics
+ * that matter most, grouped by scene, with the best value of each column marked.
  *
  * Errors are those of the sequence; times are over the frames >= 0. A value that is not there is
  * null (json), empty (csv) or "-".

@@ -65,12 +65,49 @@ static void read_stage(void *user, int frame, const char *name, double ms)
     t->frame = frame;
 }
 
+static int region_metric_index(struct irb_table_data *data, const char *name)
+{
+    for (int i = 0; i < data->region_metric_count; i++)
+        if (!strcmp(data->region_metrics[i], name))
+            return i;
+    size_t count = (size_t)data->region_metric_count + 1;
+    data->region_metrics = realloc(data->region_metrics, count * sizeof *data->region_metrics);
+    if (!data->region_metrics)
+        abort();
+    data->region_metrics[data->region_metric_count] = irb_strdup(name);
+    return data->region_metric_count++;
+}
+
+/* Makes the row's list of region metrics `count` long. */
+static void pad_regions(struct irb_table_row *row, int count)
+{
+    row->regions = realloc(row->regions, ((size_t)count + 1) * sizeof *row->regions);
+    if (!row->regions)
+        abort();
+    while (row->region_count < count)
+        row->regions[row->region_count++] = NAN;
+}
+
+/* The row whose scores are read. */
+struct scored_row {
+    struct irb_table_data *data;
+    struct irb_table_row *row;
+};
+
 static void read_score(void *user, int frame, const char *name, double value)
 {
-    struct irb_table_row *row = user;
-    int metric = frame == -1 ? irb_metric_find(name) : -1;
-    if (metric >= 0)
-        row->metrics[metric] = value;
+    struct scored_row *scored = user;
+    if (frame != -1)
+        return;
+    int metric = irb_metric_find(name);
+    if (metric >= 0) {
+        scored->row->metrics[metric] = value;
+    } else if (irb_region_metric_find(name) >= 0) {
+        int index = region_metric_index(scored->data, name);
+        if (index >= scored->row->region_count)
+            pad_regions(scored->row, index + 1);
+        scored->row->regions[index] = value;
+    }
 }
 
 /* Appends a meta value between two texts, where there is one. */
@@ -102,6 +139,9 @@ static char *scene_choices(struct irb_store *store, const char *scene)
     append_choice(&out, store, scene, "flip_indirect_start", ", FLIP exposures ");
     append_choice(&out, store, scene, "flip_indirect_stop", " to ");
     append_choice(&out, store, scene, "flip_indirect_exposures", ", ");
+    append_choice(&out, store, scene, "psnr_peak_indirect", ", PSNR peak ");
+    append_choice(&out, store, scene, "psnr_peak_full", " and ");
+    append_choice(&out, store, scene, "preview_exposure", ", exposure of SSIM and LDR-FLIP ");
     return out.text ? out.text : irb_strdup("");
 }
 
@@ -127,15 +167,16 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
                      struct irb_store *store, struct irb_error *err)
 {
     struct timing timing = {.data = data};
+    struct scored_row scored = {data, row};
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         row->metrics[i] = NAN;
-    bool ok = irb_store_read_scores(store, row->trial->id, read_score, row, err) &&
+    bool ok = irb_store_read_scores(store, row->trial->id, read_score, &scored, err) &&
               irb_store_read_stages(store, row->trial->id, read_stage, &timing, err);
     struct irb_summary frames = irb_summarise(timing.frames.values, timing.frames.count);
     row->metrics[IRB_METRIC_frame_ms] = frames.median;
     row->metrics[IRB_METRIC_frame_ms_p95] = frames.p95;
     row->metrics[IRB_METRIC_frame_ms_worst] = frames.worst;
-    /* later trials may bring more stages: pad_stages() makes the rows equally long */
+    /* later trials may bring more stages: pad_rows() makes the rows equally long */
     row->stage_ms = calloc((size_t)timing.stage_capacity + 1, sizeof(double));
     if (!row->stage_ms)
         abort();
@@ -150,11 +191,12 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     return ok;
 }
 
-/* Gives every row an entry for every stage. */
-static void pad_stages(struct irb_table_data *data)
+/* Gives every row an entry for every stage and region metric. */
+static void pad_rows(struct irb_table_data *data)
 {
     for (int i = 0; i < data->row_count; i++) {
         struct irb_table_row *row = &data->rows[i];
+        pad_regions(row, data->region_metric_count);
         row->stage_ms = realloc(row->stage_ms, ((size_t)data->stage_count + 1) * sizeof(double));
         if (!row->stage_ms)
             abort();
@@ -194,7 +236,7 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store,
         irb_table_data_destroy(data);
         return false;
     }
-    pad_stages(data);
+    pad_rows(data);
     data->provenance = read_provenance(data, store);
     return true;
 }
@@ -203,12 +245,16 @@ void irb_table_data_destroy(struct irb_table_data *data)
 {
     for (int i = 0; i < data->row_count; i++) {
         free(data->rows[i].stage_ms);
+        free(data->rows[i].regions);
         free(data->rows[i].choices);
     }
     free(data->provenance);
     for (int i = 0; i < data->stage_count; i++)
         free(data->stages[i]);
     free(data->stages);
+    for (int i = 0; i < data->region_metric_count; i++)
+        free(data->region_metrics[i]);
+    free(data->region_metrics);
     free(data->rows);
     irb_store_trial_list_destroy(&data->trials);
     *data = (struct irb_table_data){0};

@@ -13,6 +13,8 @@ struct irb_table_row {
     double metrics[IRB_METRIC_COUNT];        /* of the sequence; NaN where there is none */
     double *stage_ms; /* medians, one for each stage of the data, NaN where it has none; owned */
     int stage_count;
+    double *regions; /* as the data's region metrics; NaN where there is none; owned */
+    int region_count;
     char *choices; /* how the scene was scored: eps, exposures; "" where unknown; owned */
 };
 
@@ -22,6 +24,8 @@ struct irb_table_data {
     int row_count;
     char **stages; /* names of all trials' stages, in order of appearance */
     int stage_count;
+    char **region_metrics; /* "METRIC@REGION" of all trials, in order of appearance; owned */
+    int region_metric_count;
     char *provenance; /* what was measured with what, in one line; "" where unknown; owned */
 };
 

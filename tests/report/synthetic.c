@@ -21,6 +21,8 @@ static bool fill_rsm(struct irb_store *store, int64_t trial, struct irb_error *e
         {"reference_noise", 0.001}, {"reference_flicker", 0.002},
         {"lost_energy", 0.25},      {"non_finite", 0},
         {"claim_rmse", NAN},        {"a_metric_of_tomorrow", 1},
+        {"full_flip@door", 0.5},    {"lag_error@3", 1},
+        {"of_tomorrow@door", 1},
     };
     /* a frame's own scores must not be taken for the sequence's */
     const struct irb_store_value frame[] = {{"indirect_relmse", 77}};
@@ -39,6 +41,7 @@ static bool fill_all(struct irb_store *store, int64_t trial, struct irb_error *e
         {"indirect_relmse", 0.0005}, {"indirect_rmse", 0.02},    {"indirect_energy_ratio", 1.02},
         {"indirect_flicker", 0.001}, {"reference_noise", 0.001}, {"reference_flicker", 0.002},
         {"indirect_flip", 0.0625},   {"lost_energy", 0},         {"non_finite", 0},
+        {"indirect_rmse@wall", 0.75},
     };
     return irb_store_scores(store, trial, -1, whole, COUNT(whole), err);
 }

@@ -107,6 +107,13 @@ static void test_json(void **state)
     expect_member(rows[0], "indirect_relmse", "0.04");
     expect_member(rows[0], "indirect_bias", "-0.01");
     expect_member(rows[0], "claim_rmse", no_value);
+    /* of regions; nothing else that has an '@' */
+    expect_member(rows[0], "full_flip@door", "0.5");
+    expect_member(rows[1], "full_flip@door", no_value);
+    expect_member(rows[1], "indirect_rmse@wall", "0.75");
+    expect_member(rows[0], "indirect_rmse@wall", no_value);
+    assert_null(strstr(text, "tomorrow"));
+    assert_null(strstr(text, "lag_error"));
     expect_member(rows[2], "indirect_rmse", no_value); /* infinite: JSON has no such number */
     /* over frames 0 to 4; sums over stages */
     expect_member(rows[0], "frame_ms", "3");
