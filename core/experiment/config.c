@@ -6,6 +6,7 @@
 #include "core/base/str.h"
 #include "core/experiment/config_parts.h"
 
+#include "core/frame/layout.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,13 @@ const struct irb_option irb_render_options[] = {
                    "unscored frames at the first pose, for methods that keep a history", "ours"),
     IRB_OPTION_INT(struct irb_render_settings, rsm_resolution, 512, 1, 8192, "texels",
                    "side of the reflective shadow map", "ACRSM thesis, 5.1.1"),
+    IRB_OPTION_ENUM(struct irb_render_settings, gbuffer_layout, IRB_LAYOUT_FULL, irb_layout_names,
+                    "G-buffer that methods are given: 32-bit floats, or the thesis's 16 bytes a "
+                    "pixel; the reference and the direct light keep the full one",
+                    "ACRSM thesis, table 5.1a"),
+    IRB_OPTION_ENUM(struct irb_render_settings, rsm_layout, IRB_LAYOUT_FULL, irb_layout_names,
+                    "RSM that methods are given: 32-bit floats, or the thesis's 16 bytes a texel",
+                    "ACRSM thesis, table 5.1b"),
     IRB_OPTION_FLOAT(struct irb_render_settings, exposure, 0, 0, 1e9, "",
                      "factor on radiance before previews are tone-mapped; 0 = from the reference",
                      "ours"),

@@ -19,6 +19,8 @@ struct irb_render_settings {
     int frames;          /* scored frames */
     int settle;          /* unscored frames at the first pose (design: 16 for all methods) */
     int rsm_resolution;  /* texels a side */
+    int gbuffer_layout;  /* enum irb_layout: what methods are given */
+    int rsm_layout;      /* enum irb_layout: what methods are given */
     float exposure;      /* of previews, a factor on radiance; 0 = from the reference */
     int repeats;         /* timed repeats of the sequence */
 };

@@ -37,6 +37,8 @@ struct scene_run {
     struct irb_scene_gl *scene;
     struct irb_gbuffer *gbuffer;
     struct irb_rsm *rsm;
+    struct irb_gbuffer *slim_gbuffer; /* what methods get instead, NULL where they get the full */
+    struct irb_rsm *slim_rsm;
     struct irb_direct *direct;
     struct irb_timer *timer; /* of the core's stages */
     double core_ms[IRB_MAX_STAGES];
@@ -129,9 +131,25 @@ static void close_scene(struct scene_run *scene)
     free(scene->trials);
     irb_timer_destroy(scene->timer);
     irb_direct_destroy(scene->direct);
+    irb_rsm_destroy(scene->slim_rsm);
     irb_rsm_destroy(scene->rsm);
+    irb_gbuffer_destroy(scene->slim_gbuffer);
     irb_gbuffer_destroy(scene->gbuffer);
     irb_scene_gl_destroy(scene->scene);
+}
+
+/* The G-buffer and RSM that methods read, where their layout is not the full one. */
+static bool open_slim(struct scene_run *scene, struct irb_error *err)
+{
+    const struct irb_render_settings *render = &scene->run->config->render;
+    struct irb_gl *gl = scene->run->gl;
+    return (render->gbuffer_layout == IRB_LAYOUT_FULL ||
+            (scene->slim_gbuffer = irb_gbuffer_create_layout(
+                 gl, (enum irb_layout)render->gbuffer_layout, render->width, render->height,
+                 err))) &&
+           (render->rsm_layout == IRB_LAYOUT_FULL ||
+            (scene->slim_rsm = irb_rsm_create_layout(gl, (enum irb_layout)render->rsm_layout,
+                                                     render->rsm_resolution, err)));
 }
 
 static bool open_passes(struct scene_run *scene, struct irb_error *err)
@@ -142,19 +160,26 @@ static bool open_passes(struct scene_run *scene, struct irb_error *err)
            (scene->gbuffer = irb_gbuffer_create(gl, render->width, render->height, err)) &&
            (scene->rsm = irb_rsm_create(gl, render->rsm_resolution, err)) &&
            (scene->direct = irb_direct_create(gl, render->width, render->height, err)) &&
-           (scene->timer = irb_timer_create(gl, err));
+           open_slim(scene, err) && (scene->timer = irb_timer_create(gl, err));
 }
 
-/* The passes that all trials share; the times go to core_ms. */
+/* The passes that all trials share; the times go to core_ms. Of a G-buffer or RSM in two layouts
+ * the one that methods read is timed: the other is the harness's own. */
 static bool render_core(struct scene_run *scene, int frame, struct irb_error *err)
 {
     const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
+    struct irb_gbuffer *gbuffer = scene->slim_gbuffer ? scene->slim_gbuffer : scene->gbuffer;
+    struct irb_rsm *rsm = scene->slim_rsm ? scene->slim_rsm : scene->rsm;
     irb_timer_begin(scene->timer, IRB_CORE_GBUFFER);
-    bool ok = irb_gbuffer_render(scene->gbuffer, scene->scene, &pose->camera, err);
+    bool ok = irb_gbuffer_render(gbuffer, scene->scene, &pose->camera, err);
     irb_timer_end(scene->timer);
     irb_timer_begin(scene->timer, IRB_CORE_RSM);
-    ok = ok && irb_rsm_render(scene->rsm, scene->scene, &pose->light, err);
+    ok = ok && irb_rsm_render(rsm, scene->scene, &pose->light, err);
     irb_timer_end(scene->timer);
+    ok = ok &&
+         (gbuffer == scene->gbuffer ||
+          irb_gbuffer_render(scene->gbuffer, scene->scene, &pose->camera, err)) &&
+         (rsm == scene->rsm || irb_rsm_render(scene->rsm, scene->scene, &pose->light, err));
     irb_timer_begin(scene->timer, IRB_CORE_DIRECT);
     ok = ok && irb_direct_render(scene->direct, scene->gbuffer, scene->rsm, &pose->light,
                                  &pose->camera, err);
@@ -172,8 +197,8 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
         .scene = scene->scene,
         .light = &pose->light,
         .camera = &pose->camera,
-        .gbuffer = scene->gbuffer,
-        .rsm = scene->rsm,
+        .gbuffer = scene->slim_gbuffer ? scene->slim_gbuffer : scene->gbuffer,
+        .rsm = scene->slim_rsm ? scene->slim_rsm : scene->rsm,
         .frame = frame,
         .seed = (uint64_t)scene->run->config->seed,
         .params = trial->trial->params,

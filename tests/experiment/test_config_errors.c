@@ -141,7 +141,8 @@ static void test_top(void **state)
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
                "resolution, reference, scenes, scene, camera, light, regions, trials, width, "
-               "height, frames, settle, rsm_resolution, exposure, repeats");
+               "height, frames, settle, rsm_resolution, gbuffer_layout, rsm_layout, exposure, "
+               "repeats");
     expect_top("frames: 3\nframes: 4",
                "@:3:1: config: 'frames' stands here twice, first in line 2");
     expect_top("frames: 0", "@:2:9: frames: expected a whole number in [1, 100000]; found '0'");
