@@ -116,8 +116,11 @@ static bool show_config(struct irb_cli *cli, const char *path, struct irb_error 
     struct irb_config config = {0};
     if (!irb_config_load(&config, path, cli->overrides, &cli->registry, err))
         return false;
-    printf("%s (key %.8s), seed %d\n\nrendering:\n", config.name, irb_config_key(&config).hex,
-           config.seed);
+    printf("%s (key %.8s), seed%s", config.name, irb_config_key(&config).hex,
+           config.seed_count > 1 ? "s" : "");
+    for (int i = 0; i < config.seed_count; i++)
+        printf(" %d", config.seeds[i]);
+    printf("\n\nrendering:\n");
     print_options(irb_render_options, &config.render);
     printf("\nreference:\n");
     print_options(irb_reference_options, &config.reference);

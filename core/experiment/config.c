@@ -4,6 +4,7 @@
  * command line, and the key of all of it.
  */
 #include "core/base/str.h"
+#include "core/experiment/config_keys.h"
 #include "core/experiment/config_parts.h"
 
 #include "core/frame/layout.h"
@@ -37,9 +38,7 @@ const struct irb_option irb_render_options[] = {
 };
 
 /* Keys of the file's top that are no render option. */
-static const char *const top_keys[] = {"name",  "seed",   "resolution", "reference", "scenes",
-                                       "scene", "camera", "light",      "regions",
-                                       "trials"};
+static const char *const top_keys[] = {IRB_CONFIG_TOP_KEYS(IRB_CONFIG_KEY_NAME)};
 enum { TOP_KEYS = sizeof top_keys / sizeof *top_keys };
 
 /* ---- single settings, from the file and from --set alike ---- */
@@ -74,7 +73,9 @@ static bool set_top(struct irb_config *config, const char *key, const char *text
                     struct irb_error *err)
 {
     if (!strcmp(key, "seed"))
-        return set_seed(config, text, err);
+        return irb_config_set_seed(config, text, err);
+    if (!strcmp(key, "seeds"))
+        return irb_config_set_seeds(config, text, err);
     if (!strcmp(key, "name"))
         return set_name(config, text, err);
     return irb_option_set(irb_render_options, &config->render, key, text, err);
@@ -160,6 +161,8 @@ static bool read_settings(struct irb_config *config, struct irb_yaml *yaml, irb_
         bool ok;
         if (!strcmp(key, "resolution")) {
             ok = read_resolution(config, yaml, value, err);
+        } else if (!strcmp(key, "seeds")) {
+            ok = irb_config_read_seeds(config, yaml, value, err);
         } else if (!strcmp(key, "reference")) {
             ok = read_reference(config, yaml, value, err);
         } else {
@@ -253,13 +256,17 @@ static bool check_together(const struct irb_config *config, struct irb_error *er
                         "%s: reference: expected min_samples to be at most max_samples, found %d "
                         "and %d",
                         config->path, reference->min_samples, reference->max_samples);
+    if ((long long)config->trial_count * config->seed_count > IRB_MOST_TRIALS)
+        return irb_fail(err, IRB_E_INPUT,
+                        "%s: expected at most %d trials, each seed counted, found %d with %d seeds",
+                        config->path, IRB_MOST_TRIALS, config->trial_count, config->seed_count);
     return irb_config_check_regions(config, err);
 }
 
 bool irb_config_load(struct irb_config *config, const char *path, const char *const *overrides,
                      const struct irb_registry *registry, struct irb_error *err)
 {
-    *config = (struct irb_config){.seed = 1};
+    *config = (struct irb_config){.seeds = {1}, .seed_count = 1};
     struct irb_yaml yaml;
     if (!irb_yaml_load(&yaml, path, err))
         return false;
@@ -325,7 +332,7 @@ struct irb_key irb_config_key(const struct irb_config *config)
     struct irb_hash *hash = irb_hash_create();
     irb_options_hash(irb_render_options, &config->render, hash);
     irb_options_hash(irb_reference_options, &config->reference, hash);
-    irb_hash_u64(hash, (uint64_t)config->seed);
+    irb_hash_u64(hash, (uint64_t)config->seeds[0]);
     irb_hash_u64(hash, (uint64_t)config->scene_count);
     for (int i = 0; i < config->scene_count; i++) {
         const struct irb_scene_entry *scene = &config->scenes[i];
@@ -341,5 +348,6 @@ struct irb_key irb_config_key(const struct irb_config *config)
         irb_hash_string(hash, config->trials[i].method->name);
         irb_options_hash(config->trials[i].method->params, config->trials[i].params, hash);
     }
+    irb_config_hash_seeds(config, hash);
     return irb_hash_finish(hash);
 }

@@ -46,6 +46,14 @@ struct irb_trial {
     const struct irb_method *method;
     void *params;  /* the method's parameter struct; owned */
     char *name;    /* "rsm:mode=importance:samples=400": only what differs from the defaults */
+    /* Set by a run, which takes each trial of a config once for each seed: */
+    int seed;
+    char *folder;  /* of its files, below the scene's: NAME, or NAME/seed-2 with several seeds */
+};
+
+enum {
+    IRB_MOST_TRIALS = 1000, /* of a config; seeds and trials multiplied as well */
+    IRB_MOST_SEEDS = 100,
 };
 
 struct irb_config {
@@ -53,7 +61,8 @@ struct irb_config {
     char *name;                       /* `name:`, else the file's stem */
     struct irb_render_settings render;
     struct irb_reference_settings reference;
-    int seed;
+    int seeds[IRB_MOST_SEEDS]; /* every trial is run with each of them; one by default */
+    int seed_count;
     struct irb_scene_entry *scenes;
     int scene_count;
     struct irb_trial *trials;

@@ -34,6 +34,14 @@ bool irb_config_check_regions(const struct irb_config *config, struct irb_error 
 void irb_config_hash_regions(const struct irb_scene_entry *entry, struct irb_hash *hash);
 void irb_config_destroy_regions(struct irb_scene_entry *entry);
 
+/* `seed:` and `seeds:` (config_seeds.c): the file's node; the texts of --set; and what the seeds
+ * after the first add to the config's key. */
+bool irb_config_read_seeds(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node node,
+                           struct irb_error *err);
+bool irb_config_set_seed(struct irb_config *config, const char *text, struct irb_error *err);
+bool irb_config_set_seeds(struct irb_config *config, const char *text, struct irb_error *err);
+void irb_config_hash_seeds(const struct irb_config *config, struct irb_hash *hash);
+
 /* `trials:` (config_trials.c). */
 bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
                             const struct irb_registry *registry, struct irb_error *err);

@@ -7,6 +7,7 @@
  *       - {name: door, box: [120, 40, 160, 128]}
  */
 #include "core/base/str.h"
+#include "core/experiment/config_keys.h"
 #include "core/experiment/config_parts.h"
 
 #include <math.h>
@@ -62,7 +63,7 @@ static bool read_name(struct irb_scene_entry *entry, struct irb_region *region,
 static bool read_region(struct irb_scene_entry *entry, struct irb_yaml *yaml, irb_yaml_node node,
                         struct irb_error *err)
 {
-    static const char *const keys[] = {"name", "box", NULL};
+    static const char *const keys[] = {IRB_CONFIG_REGION_KEYS(IRB_CONFIG_KEY_NAME) NULL};
     if (!irb_yaml_check_map(yaml, node, "region", keys, err))
         return false;
     irb_yaml_node name = irb_yaml_find(yaml, node, "name"), box = irb_yaml_find(yaml, node, "box");

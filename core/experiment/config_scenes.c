@@ -4,6 +4,7 @@
  */
 #include "core/base/fs.h"
 #include "core/base/str.h"
+#include "core/experiment/config_keys.h"
 #include "core/experiment/config_parts.h"
 #include "core/scene/builtin.h"
 
@@ -188,7 +189,7 @@ static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yam
 static bool read_list(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node list,
                       struct irb_error *err)
 {
-    static const char *const keys[] = {"scene", "name", "camera", "light", "regions", NULL};
+    static const char *const keys[] = {IRB_CONFIG_SCENE_KEYS(IRB_CONFIG_KEY_NAME) NULL};
     for (int i = 0; i < irb_yaml_count(list); i++) {
         irb_yaml_node node = irb_yaml_item(yaml, list, i);
         if (!irb_yaml_check_map(yaml, node, "scene", keys, err) ||

@@ -4,6 +4,7 @@
  * it from the key before it; the first key takes it from the built-in scene's own view.
  */
 #include "core/base/str.h"
+#include "core/experiment/config_keys.h"
 #include "core/experiment/config_parts.h"
 
 #include <float.h>
@@ -16,10 +17,11 @@ static const float default_up[3] = {0, 1, 0};
 static const float default_fov = 45;  /* degrees, vertical */
 static const float default_cone = 45; /* degrees, half-angle */
 
-#define SETTINGS_OF_CAMERA "interpolation", "near", "far", "keys"
-#define KEY_OF_CAMERA "position", "target", "up", "fov"
-#define SETTINGS_OF_LIGHT "type", "falloff", "beam_half_width", "interpolation", "keys"
-#define KEY_OF_LIGHT "position", "target", "intensity", "cone", "inner"
+#define SETTINGS_OF_CAMERA IRB_CONFIG_CAMERA_SETTINGS(IRB_CONFIG_KEY_NAME)
+#define KEY_OF_CAMERA IRB_CONFIG_CAMERA_KEY(IRB_CONFIG_KEY_NAME)
+#define SETTINGS_OF_LIGHT IRB_CONFIG_LIGHT_SETTINGS(IRB_CONFIG_KEY_NAME)
+#define KEY_OF_LIGHT IRB_CONFIG_LIGHT_KEY(IRB_CONFIG_KEY_NAME)
+#define TIME_OF_KEY IRB_CONFIG_KEY_TIME(IRB_CONFIG_KEY_NAME)
 
 /* The section that is being read, and what its two kinds of keys have in common. */
 struct section {
@@ -257,9 +259,9 @@ static bool open_section(const struct section *s, irb_yaml_node node, irb_yaml_n
 static bool read_camera(struct irb_animation *animation, struct irb_yaml *yaml, irb_yaml_node node,
                         bool builtin, struct irb_error *err)
 {
-    static const char *const key_names[] = {"frame", KEY_OF_CAMERA, NULL};
-    static const char *const section_names[] = {SETTINGS_OF_CAMERA, NULL};
-    static const char *const single_names[] = {SETTINGS_OF_CAMERA, KEY_OF_CAMERA, NULL};
+    static const char *const key_names[] = {TIME_OF_KEY KEY_OF_CAMERA NULL};
+    static const char *const section_names[] = {SETTINGS_OF_CAMERA NULL};
+    static const char *const single_names[] = {SETTINGS_OF_CAMERA KEY_OF_CAMERA NULL};
     static const char *const required[] = {"position", "target", NULL};
     struct section s = {yaml,
                         animation,
@@ -313,9 +315,9 @@ static bool read_light_settings(struct section *s, irb_yaml_node node, struct ir
 static bool read_light(struct irb_animation *animation, struct irb_yaml *yaml, irb_yaml_node node,
                        bool builtin, struct irb_error *err)
 {
-    static const char *const key_names[] = {"frame", KEY_OF_LIGHT, NULL};
-    static const char *const section_names[] = {SETTINGS_OF_LIGHT, NULL};
-    static const char *const single_names[] = {SETTINGS_OF_LIGHT, KEY_OF_LIGHT, NULL};
+    static const char *const key_names[] = {TIME_OF_KEY KEY_OF_LIGHT NULL};
+    static const char *const section_names[] = {SETTINGS_OF_LIGHT NULL};
+    static const char *const single_names[] = {SETTINGS_OF_LIGHT KEY_OF_LIGHT NULL};
     static const char *const required[] = {"position", "target", "intensity", NULL};
     struct section s = {yaml,           animation,         "light",  key_names,
                         section_names,  single_names,      required, sizeof(struct irb_light_key),

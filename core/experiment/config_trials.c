@@ -1,92 +1,69 @@
 /* SPDX-License-Identifier: MIT
  *
- * `trials:`: a list of "method:option=value" texts and {method: {option: value}} maps.
+ * `trials:`: a list of "method:option=value" texts and {method: {option: value}} maps. A map may
+ * stand for many trials: see sweep.h.
  */
 #include "core/base/str.h"
 #include "core/experiment/config_parts.h"
+#include "core/experiment/sweep.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Far above what a study runs; bounds the time that the search for duplicates takes. */
-enum { MOST_TRIALS = 4096 };
+/* What the trials of the list are added to. */
+struct reader {
+    struct irb_config *config;
+    struct irb_yaml *yaml;
+    irb_yaml_node node; /* the item of the list that is being read */
+};
 
-/* One parameter of a trial written as a map. */
-static bool set_param(struct irb_trial *trial, struct irb_yaml *yaml, irb_yaml_node params,
-                      int index, struct irb_error *err)
+/* Takes over the trial, also on failure. */
+static bool add_trial(void *user, struct irb_trial *trial, struct irb_error *err)
 {
-    irb_yaml_node key = irb_yaml_key(yaml, params, index);
-    irb_yaml_node value = irb_yaml_value(yaml, params, index);
-    const char *name = (const char *)key->data.scalar.value;
-    if (!irb_option_find(trial->method->params, name)) {
-        irb_trial_set(trial, name, "", err); /* names the nearest */
-        irb_error_prefix(err, "%s", trial->method->name);
-        return irb_yaml_prefix(yaml, key, err);
-    }
-    if (value->type == YAML_SEQUENCE_NODE)
-        return irb_yaml_fail(yaml, value, err,
-                             "%s.%s: expected a single value, found a list; write one trial for "
-                             "each value",
-                             trial->method->name, name);
-    const char *text = irb_yaml_text(yaml, value, name, err);
-    if (!text)
+    struct reader *r = user;
+    struct irb_config *config = r->config;
+    bool ok = config->trial_count < IRB_MOST_TRIALS ||
+              irb_yaml_fail(r->yaml, r->node, err, "trials: expected at most %d, found more",
+                            IRB_MOST_TRIALS);
+    for (int i = 0; ok && i < config->trial_count; i++)
+        if (!strcmp(config->trials[i].name, trial->name))
+            ok = irb_yaml_fail(r->yaml, r->node, err, "trial '%.128s' stands here twice",
+                               trial->name);
+    if (!ok) {
+        irb_trial_destroy(trial);
         return false;
-    if (irb_trial_set(trial, name, text, err))
-        return true;
-    irb_error_prefix(err, "%s", trial->method->name);
-    return irb_yaml_prefix(yaml, value, err);
+    }
+    config->trials[config->trial_count++] = *trial;
+    return true;
 }
 
-static bool read_map(struct irb_trial *trial, struct irb_yaml *yaml, irb_yaml_node node,
-                     const struct irb_registry *registry, struct irb_error *err)
+static bool read_map(struct reader *r, const struct irb_registry *registry, struct irb_error *err)
 {
-    if (!irb_yaml_check_map(yaml, node, "trial", NULL, err))
+    struct irb_yaml *yaml = r->yaml;
+    if (!irb_yaml_check_map(yaml, r->node, "trial", NULL, err))
         return false;
-    if (irb_yaml_pairs(node) != 1)
-        return irb_yaml_fail(yaml, node, err,
+    if (irb_yaml_pairs(r->node) != 1)
+        return irb_yaml_fail(yaml, r->node, err,
                              "trial: expected one key, the method, found %d keys; indent its "
                              "parameters below it",
-                             irb_yaml_pairs(node));
-    irb_yaml_node key = irb_yaml_key(yaml, node, 0), params = irb_yaml_value(yaml, node, 0);
+                             irb_yaml_pairs(r->node));
+    irb_yaml_node key = irb_yaml_key(yaml, r->node, 0);
     const struct irb_method *method =
         irb_registry_find(registry, (const char *)key->data.scalar.value, err);
     if (!method)
         return irb_yaml_prefix(yaml, key, err);
-    if (!irb_trial_begin(trial, method, err))
-        return irb_yaml_prefix(yaml, key, err);
-    if (irb_yaml_is_null(params))
-        return true;
-    if (!irb_yaml_check_map(yaml, params, method->name, NULL, err))
-        return false;
-    for (int i = 0; i < irb_yaml_pairs(params); i++)
-        if (!set_param(trial, yaml, params, i, err))
-            return false;
-    irb_trial_rename(trial);
-    return true;
+    return irb_sweep(yaml, method, irb_yaml_value(yaml, r->node, 0), add_trial, r, err);
 }
 
-/* One item of the list; it may come to stand for several trials once a value may be a list. */
-static bool read_trial(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node node,
-                       const struct irb_registry *registry, struct irb_error *err)
+static bool read_text(struct reader *r, const struct irb_registry *registry, struct irb_error *err)
 {
-    struct irb_trial trial = {0};
-    bool ok;
-    if (node->type == YAML_MAPPING_NODE) {
-        ok = read_map(&trial, yaml, node, registry, err);
-    } else {
-        const char *text = irb_yaml_text(yaml, node, "trial", err);
-        ok = text &&
-             (irb_trial_parse(&trial, text, registry, err) || irb_yaml_prefix(yaml, node, err));
-    }
-    for (int i = 0; ok && i < config->trial_count; i++)
-        if (!strcmp(config->trials[i].name, trial.name))
-            ok = irb_yaml_fail(yaml, node, err, "trial '%.128s' stands here twice", trial.name);
-    if (!ok) {
-        irb_trial_destroy(&trial);
+    struct irb_trial trial;
+    const char *text = irb_yaml_text(r->yaml, r->node, "trial", err);
+    if (!text)
         return false;
-    }
-    config->trials[config->trial_count++] = trial;
-    return true;
+    if (!irb_trial_parse(&trial, text, registry, err))
+        return irb_yaml_prefix(r->yaml, r->node, err);
+    return add_trial(r, &trial, err);
 }
 
 bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
@@ -101,14 +78,16 @@ bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
         return irb_yaml_fail(yaml, list, err, "trials: expected a list of methods to run, found %s",
                              list->type == YAML_SEQUENCE_NODE ? "an empty one"
                                                               : irb_yaml_kind(list));
-    if (count > MOST_TRIALS)
-        return irb_yaml_fail(yaml, list, err, "trials: expected at most %d, found %d", MOST_TRIALS,
-                             count);
-    config->trials = calloc((size_t)count, sizeof *config->trials);
+    config->trials = calloc(IRB_MOST_TRIALS, sizeof *config->trials);
     if (!config->trials)
         return irb_fail(err, IRB_E_MEMORY, "%s: out of memory", yaml->path);
-    for (int i = 0; i < count; i++)
-        if (!read_trial(config, yaml, irb_yaml_item(yaml, list, i), registry, err))
+    struct reader reader = {.config = config, .yaml = yaml};
+    for (int i = 0; i < count; i++) {
+        reader.node = irb_yaml_item(yaml, list, i);
+        bool ok = reader.node->type == YAML_MAPPING_NODE ? read_map(&reader, registry, err)
+                                                         : read_text(&reader, registry, err);
+        if (!ok)
             return false;
+    }
     return true;
 }

@@ -63,11 +63,13 @@ static bool write_exr(const char *path, const struct irb_run *run,
         {"flip_indirect", "Y", &maps->flip_indirect},
         {"flip_full", "Y", &maps->flip_full},
     };
-    char number[16];
+    char number[16], seed[16];
     snprintf(number, sizeof number, "%d", frame->frame);
+    snprintf(seed, sizeof seed, "%d", trial->trial->seed);
     const struct irb_exr_attribute attributes[] = {
         {"irbench:scene", trial->scene},
         {"irbench:trial", trial->trial->name},
+        {"irbench:seed", seed},
         {"irbench:frame", number},
         {"irbench:config_key", run->config_key.hex},
     };
@@ -112,9 +114,9 @@ static bool keep_one(void *user, int index, int thread)
     struct irb_error *err = &kept->errs[kept->wanted[index]];
     struct irb_scored_frame frame = {0};
     struct maps maps = {0};
-    const char *dir = keep->run->dir, *name = trial->trial->name;
-    char *exr = irb_run_file(dir, trial->scene, name, "image", kept->frame, "exr");
-    char *png = irb_run_file(dir, trial->scene, name, "image", kept->frame, "png");
+    const char *dir = keep->run->dir, *folder = trial->trial->folder;
+    char *exr = irb_run_file(dir, trial->scene, folder, "image", kept->frame, "exr");
+    char *png = irb_run_file(dir, trial->scene, folder, "image", kept->frame, "png");
     bool ok =
         irb_scored_frame_load(&frame, keep->run, trial, kept->frame, &kept->target, err) &&
         make_maps(&maps, &frame, &kept->target, keep->constants, err) &&
@@ -131,7 +133,7 @@ static bool keep_one(void *user, int index, int thread)
 static char *frame_path(const struct irb_keep *keep, int trial, int frame)
 {
     return irb_run_file(keep->run->dir, keep->sequence->entry->name,
-                        keep->trials[trial].trial->name, "frame", frame, "exr");
+                        keep->trials[trial].trial->folder, "frame", frame, "exr");
 }
 
 static bool is_kept(const struct irb_keep *keep, int trial, int frame)

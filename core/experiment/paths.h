@@ -11,6 +11,8 @@
  *     RUN/SCENE/mask-0000.exr             pixels left out of scores (only where there are any)
  *     RUN/SCENE/TRIAL/frame-0000.exr      what a method returned
  *     RUN/SCENE/TRIAL/image-0000.exr|png  a kept frame: result, reference, maps
+ *
+ * With several seeds the last two are in RUN/SCENE/TRIAL/seed-N/.
  */
 #ifndef IRB_EXPERIMENT_PATHS_H
 #define IRB_EXPERIMENT_PATHS_H
@@ -23,7 +25,7 @@ char *irb_cache_gbuffer(const char *cache, const struct irb_key *key);
 char *irb_cache_reference(const char *cache, const struct irb_key *key);
 char *irb_cache_checkpoint(const char *cache, const struct irb_key *key);
 
-/* RUN/SCENE/stem-0003.exr; trial may be NULL. extension without a dot. */
+/* RUN/SCENE/stem-0003.exr; trial (its folder) may be NULL. extension without a dot. */
 char *irb_run_file(const char *run, const char *scene, const char *trial, const char *stem,
                    int frame, const char *extension);
 char *irb_run_folder(const char *run, const char *scene, const char *trial);

@@ -55,7 +55,7 @@ static bool frame_done(struct scene_run *scene, const struct trial_run *trial, i
 {
     if (irb_store_has_scores(scene->run->store, trial->id, frame))
         return true;
-    char *path = irb_run_file(scene->run->dir, scene->sequence->entry->name, trial->trial->name,
+    char *path = irb_run_file(scene->run->dir, scene->sequence->entry->name, trial->trial->folder,
                               "frame", frame, "exr");
     bool done = irb_store_has_frame(scene->run->store, trial->id, frame) && irb_fs_exists(path);
     free(path);
@@ -87,12 +87,12 @@ static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct 
     const struct irb_config *config = run->config;
     char *json = params_json(trial->trial);
     trial->id = irb_store_trial(run->store, scene->sequence->entry->name,
-                                trial->trial->method->name, trial->trial->name, json, config->seed,
-                                err);
+                                trial->trial->method->name, trial->trial->name, json,
+                                trial->trial->seed, err);
     free(json);
     if (!trial->id)
         return false;
-    char *folder = irb_run_folder(run->dir, scene->sequence->entry->name, trial->trial->name);
+    char *folder = irb_run_folder(run->dir, scene->sequence->entry->name, trial->trial->folder);
     bool ok = irb_fs_make_dirs(folder, err);
     irb_fs_remove_stale(folder);
     free(folder);
@@ -115,7 +115,7 @@ static bool create_trial_state(struct scene_run *scene, struct trial_run *trial,
     trial->state = method->create(scene->run->gl, scene->scene, config->render.width,
                                   config->render.height, trial->trial->params, err);
     bool ok = trial->state && method->begin_sequence(trial->state, trial->trial->params,
-                                                     (uint64_t)config->seed, err);
+                                                     (uint64_t)trial->trial->seed, err);
     trial->bytes = scene->run->gl->bytes - before;
     return ok;
 }
@@ -200,7 +200,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
         .gbuffer = scene->slim_gbuffer ? scene->slim_gbuffer : scene->gbuffer,
         .rsm = scene->slim_rsm ? scene->slim_rsm : scene->rsm,
         .frame = frame,
-        .seed = (uint64_t)scene->run->config->seed,
+        .seed = (uint64_t)trial->trial->seed,
         .params = trial->trial->params,
         .timer = trial->timer,
     };
@@ -210,7 +210,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
               irb_gl_check(scene->run->gl, trial->trial->name, err);
     irb_timer_collect(trial->timer, ms);
     trial->bytes += scene->run->gl->bytes - before; /* a method may allocate when it first draws */
-    return ok || irb_error_prefix(err, "%s: frame %d", trial->trial->name, frame);
+    return ok || irb_error_prefix(err, "%s: frame %d", trial->trial->folder, frame);
 }
 
 static bool store_frame(struct scene_run *scene, struct trial_run *trial, int frame,
@@ -218,7 +218,7 @@ static bool store_frame(struct scene_run *scene, struct trial_run *trial, int fr
                         struct irb_error *err)
 {
     struct irb_run *run = scene->run;
-    char *path = irb_run_file(run->dir, scene->sequence->entry->name, trial->trial->name, "frame",
+    char *path = irb_run_file(run->dir, scene->sequence->entry->name, trial->trial->folder, "frame",
                               frame, "exr");
     bool ok = irb_frame_file_save(path, output, err);
     free(path);

@@ -4,7 +4,9 @@
 #include "core/base/fs.h"
 #include "core/experiment/paths.h"
 #include "core/experiment/provenance.h"
+#include "core/experiment/run_trials.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -157,47 +159,14 @@ static void report_seconds(const struct irb_run *run)
     irb_str_free(&line);
 }
 
-/* The trials that --only names, as a shallow copy of the config's; *selected is malloc'ed. */
-static bool select_trials(const struct irb_config *config, const struct irb_run_options *options,
-                          struct irb_trial **selected, int *count, struct irb_error *err)
-{
-    *selected = calloc((size_t)config->trial_count, sizeof **selected);
-    if (!*selected)
-        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", config->trial_count);
-    const char **names = calloc((size_t)config->trial_count, sizeof *names);
-    for (int i = 0; names && i < config->trial_count; i++)
-        names[i] = config->trials[i].name;
-    bool ok = names != NULL;
-    *count = 0;
-    for (int o = 0; ok && o < options->only_count; o++) {
-        int before = *count;
-        for (int i = 0; i < config->trial_count; i++)
-            if (!strcmp(config->trials[i].name, options->only[o]))
-                (*selected)[(*count)++] = config->trials[i];
-        if (*count > before)
-            continue;
-        const char *near = irb_nearest(options->only[o], names, (size_t)config->trial_count);
-        ok = irb_fail(err, IRB_E_USAGE, "--only: the config has no trial '%s'%s%s%s",
-                      options->only[o], near ? "; did you mean '" : "", near ? near : "",
-                      near ? "'?" : "");
-    }
-    free(names);
-    return ok;
-}
-
 static bool run_scenes(struct irb_run *run, struct irb_error *err)
 {
-    struct irb_config selected = *run->config;
-    struct irb_trial *trials = NULL;
-    bool ok = true;
-    if (run->options->only_count) {
-        ok = select_trials(run->config, run->options, &trials, &selected.trial_count, err);
-        selected.trials = trials;
-    }
+    struct irb_config selected;
+    bool ok = irb_run_trials(&selected, run->config, run->options, err);
     run->config = &selected;
     for (int i = 0; ok && i < selected.scene_count; i++)
         ok = run_scene(run, &selected.scenes[i], err);
-    free(trials);
+    irb_run_trials_free(&selected);
     return ok;
 }
 

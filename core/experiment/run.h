@@ -45,7 +45,7 @@ extern const char *const irb_work_names[IRB_WORK_COUNT];
 
 /* State that the stages share; they are in prepare.c, render.c, score_stage.c and keep.c. */
 struct irb_run {
-    const struct irb_config *config; /* with the selected trials only */
+    const struct irb_config *config; /* whose trials are the selected ones, each for each seed */
     struct irb_key config_key;       /* of the whole config */
     const struct irb_run_options *options;
     struct irb_log *log;

@@ -22,7 +22,7 @@ bool irb_scored_trial_open(struct irb_scored_trial *scored, struct irb_run *run,
 {
     *scored = (struct irb_scored_trial){
         .trial = trial, .scene = sequence->entry->name, .entry = sequence->entry};
-    scored->id = irb_store_trial_find(run->store, scored->scene, trial->name, run->config->seed);
+    scored->id = irb_store_trial_find(run->store, scored->scene, trial->name, trial->seed);
     return scored->id > 0 ||
            irb_fail(err, IRB_E_USAGE, "%s: %s is not rendered; run --stage render first", run->dir,
                     trial->name);
@@ -37,7 +37,7 @@ bool irb_scored_frame_load(struct irb_scored_frame *out, const struct irb_run *r
         return irb_fail(err, IRB_E_INPUT, "%s: the direct light of frame %d of scene %s is missing",
                         run->dir, frame, trial->scene);
     struct irb_frame_file file;
-    char *path = irb_run_file(run->dir, trial->scene, trial->trial->name, "frame", frame, "exr");
+    char *path = irb_run_file(run->dir, trial->scene, trial->trial->folder, "frame", frame, "exr");
     bool ok = irb_frame_file_load(path, &file, err);
     free(path);
     if (!ok)

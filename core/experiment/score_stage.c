@@ -220,7 +220,7 @@ static bool anything_to_do(const struct scoring *s)
         todo = anything_missing(s, i);
         for (int t = 0; !todo && t < s->trial_count; t++) {
             char *path = irb_run_file(s->run->dir, s->sequence->entry->name,
-                                      s->trials[t].trial.trial->name, "frame", i, "exr");
+                                      s->trials[t].trial.trial->folder, "frame", i, "exr");
             todo = irb_fs_exists(path);
             free(path);
         }

@@ -98,7 +98,8 @@ static void test_every_key(void **state)
     struct irb_config c;
     load(&c, full_text, NULL);
     assert_string_equal(c.name, "quick");
-    assert_int_equal(c.seed, 7);
+    assert_int_equal(c.seed_count, 1);
+    assert_int_equal(c.seeds[0], 7);
     assert_int_equal(c.render.width, 256);
     assert_int_equal(c.render.height, 192);
     assert_int_equal(c.render.frames, 9);
@@ -173,7 +174,8 @@ static void test_shortest(void **state)
     struct irb_config c;
     load(&c, "scene: cornell\ntrials: [rsm]\n", NULL);
     assert_string_equal(c.name, "some.study");
-    assert_int_equal(c.seed, 1);
+    assert_int_equal(c.seed_count, 1);
+    assert_int_equal(c.seeds[0], 1);
     assert_int_equal(c.render.settle, 16);
     assert_string_equal(c.scenes[0].name, "cornell");
     assert_int_equal(c.scenes[0].animation.light_key_count, 1);
@@ -245,7 +247,8 @@ static void test_overrides(void **state)
     load(&c, full_text,
          (const char *const[]){"seed=8", "frames=2", "resolution=64x48", "reference.noise=0.5",
                                "reference.unoccluded=false", "name=slow", "frames=3", NULL});
-    assert_int_equal(c.seed, 8);
+    assert_int_equal(c.seed_count, 1);
+    assert_int_equal(c.seeds[0], 8);
     assert_int_equal(c.render.frames, 3); /* the last one wins */
     assert_int_equal(c.render.width, 64);
     assert_int_equal(c.render.height, 48);
@@ -299,6 +302,70 @@ static void test_regions(void **state)
     irb_config_destroy(&c);
 }
 
+/* The trials of `list`, in order. */
+static void expect_trials(const char *list, const char *const *names)
+{
+    struct irb_config c;
+    char *text = irb_asprintf("scene: cornell\ntrials:\n%s", list);
+    load(&c, text, NULL);
+    int count = 0;
+    for (; names[count]; count++)
+        assert_string_equal(count < c.trial_count ? c.trials[count].name : "(none)", names[count]);
+    assert_int_equal(c.trial_count, count);
+    irb_config_destroy(&c);
+    free(text);
+}
+
+static void test_sweeps(void **state)
+{
+    (void)state;
+    expect_trials("  - rsm: {samples: [3, 1, 2]}\n",
+                  (const char *const[]){"rsm:samples=3", "rsm:samples=1", "rsm:samples=2", NULL});
+    expect_trials("  - rsm: {samples: [7]}\n", (const char *const[]){"rsm:samples=7", NULL});
+    /* in the order of the method's table, whatever the map's; the last one changes fastest */
+    expect_trials("  - plain\n  - rsm: {samples: [1, 2], shared: false, mode: [importance, all]}\n",
+                  (const char *const[]){"plain", "rsm:mode=importance:samples=1:shared=false",
+                                        "rsm:mode=importance:samples=2:shared=false",
+                                        "rsm:mode=all:samples=1:shared=false",
+                                        "rsm:mode=all:samples=2:shared=false", NULL});
+}
+
+static void test_matrix(void **state)
+{
+    (void)state;
+    expect_trials("  - rsm: {matrix: [{mode: all, samples: 9}, {mode: importance}, {}], clamp: 5}\n",
+                  (const char *const[]){"rsm:mode=all:samples=9:clamp=5",
+                                        "rsm:mode=importance:clamp=5", "rsm:clamp=5", NULL});
+    /* an entry wins over what stands beside it; lists go on meaning one trial each */
+    expect_trials("  - rsm: {samples: [1, 2], matrix: [{mode: all}, {samples: [3, 4]}]}\n",
+                  (const char *const[]){"rsm:mode=all:samples=1", "rsm:mode=all:samples=2",
+                                        "rsm:samples=3", "rsm:samples=4", NULL});
+}
+
+static void expect_seeds(const char *line, const char *override, int count, const int *seeds)
+{
+    struct irb_config c;
+    char *text = irb_asprintf("scene: cornell\n%s\ntrials: [rsm]\n", line);
+    load(&c, text, (const char *const[]){override, NULL});
+    assert_int_equal(c.seed_count, count);
+    for (int i = 0; i < count; i++)
+        assert_int_equal(c.seeds[i], seeds[i]);
+    irb_config_destroy(&c);
+    free(text);
+}
+
+static void test_seeds(void **state)
+{
+    (void)state;
+    expect_seeds("", NULL, 1, (const int[]){1});
+    expect_seeds("seed: 0", NULL, 1, (const int[]){0});
+    expect_seeds("seeds: 3", NULL, 3, (const int[]){1, 2, 3});
+    expect_seeds("seeds: [7, 0, 5]", NULL, 3, (const int[]){7, 0, 5});
+    expect_seeds("seeds: [7, 0, 5]", "seed=4", 1, (const int[]){4});
+    expect_seeds("seed: 9", "seeds=2", 2, (const int[]){1, 2});
+    expect_seeds("seed: 9", "seeds=8,6", 2, (const int[]){8, 6});
+}
+
 static struct irb_key key_with(const char *text, const char *override)
 {
     struct irb_config c;
@@ -319,6 +386,11 @@ static void test_key(void **state)
     assert_string_equal(
         key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,
         key_with("trials: [{rsm: {mode: all}}]\nscenes: [{scene: cornell}]", NULL).hex);
+    assert_string_equal(key_with("scene: cornell\nseeds: [1]\ntrials: [rsm]", NULL).hex,
+                        key_with("scene: cornell\ntrials: [rsm]", NULL).hex);
+    assert_string_equal(
+        key_with("scene: cornell\ntrials: [{rsm: {samples: [1, 2]}}]", NULL).hex,
+        key_with("scene: cornell\ntrials: ['rsm:samples=1', 'rsm:samples=2']", NULL).hex);
     /* but everything that changes a result */
     static const char *const changes[] = {
         "seed=8",    "frames=10",           "resolution=64x48",    "rsm_resolution=64", "settle=1",
@@ -329,6 +401,8 @@ static void test_key(void **state)
             fail_msg("%s does not change the key", changes[i]);
     static const char *const texts[] = {
         "scene: cornell\ntrials: [rsm]",
+        "scene: cornell\nseeds: 2\ntrials: [rsm]",
+        "scene: cornell\nseeds: [1, 3]\ntrials: [rsm]",
         "scene: cornell\ntrials: ['rsm:samples=1']",
         "scene: cornell\ntrials: [rsm, 'rsm:samples=1']",
         "scene: cornell\ntrials: [plain]",
@@ -362,6 +436,8 @@ int main(void)
         cmocka_unit_test(test_shortest),  cmocka_unit_test(test_built_in_view_is_kept),
         cmocka_unit_test(test_aliases),   cmocka_unit_test(test_environment),
         cmocka_unit_test(test_overrides), cmocka_unit_test(test_key),
+        cmocka_unit_test(test_sweeps),    cmocka_unit_test(test_matrix),
+        cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_regions),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

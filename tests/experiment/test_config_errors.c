@@ -3,6 +3,7 @@
  * Configs that are wrong: one line each that says where, what was expected and what was found.
  */
 #include "core/base/fs.h"
+#include "core/base/str.h"
 #include "core/experiment/config.h"
 #include "tests/support/compare.h"
 
@@ -140,7 +141,7 @@ static void test_top(void **state)
     expect_top("frame: 3", "@:2:1: config: unknown key 'frame'; did you mean 'frames'?");
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
-               "resolution, reference, scenes, scene, camera, light, regions, trials, width, "
+               "seeds, resolution, reference, scenes, scene, camera, light, regions, trials, width, "
                "height, frames, settle, rsm_resolution, gbuffer_layout, rsm_layout, exposure, "
                "repeats");
     expect_top("frames: 3\nframes: 4",
@@ -404,9 +405,8 @@ static void test_trials(void **state)
                  "@:3:17: rsm: mode: expected one of all, uniform, importance; found 'al'");
     expect_trial("rsm: {clamp: 1e9}",
                  "@:3:18: rsm: clamp: expected a number in [0, 10] m; found '1e9'");
-    expect_trial("rsm: {samples: [4, 9]}",
-                 "@:3:20: rsm.samples: expected a single value, found a list; write one trial for "
-                 "each value");
+    expect_trial("rsm: {samples: [4, [9]]}",
+                 "@:3:24: samples: expected a single value, found a list");
     expect_trial("rsm: {samples: {a: 4}}", "@:3:20: samples: expected a single value, found a map");
     expect_trial("rsm: {samples: 4, samples: 4}",
                  "@:3:23: rsm: 'samples' stands here twice, first in line 3");
@@ -419,6 +419,111 @@ static void test_trials(void **state)
                  "@:3:13: plain: unknown key 'samples'; plain has no parameters");
     expect_trial("rsm:mode=all\n  - rsm: {mode: all, samples: 400}",
                  "@:4:5: trial 'rsm:mode=all' stands here twice");
+}
+
+static void test_sweeps(void **state)
+{
+    (void)state;
+    expect_trial("rsm: {samples: []}",
+                 "@:3:20: rsm.samples: expected at least one value, found an empty list");
+    expect_trial("rsm: {samples: [4, 0]}",
+                 "@:3:24: rsm: samples: expected a whole number in [1, 4096]; found '0'");
+    expect_trial("rsm: {samples: [4, {a: 3}]}",
+                 "@:3:24: samples: expected a single value, found a map");
+    expect_trial("rsm: {mode: [all, al]}",
+                 "@:3:23: rsm: mode: expected one of all, uniform, importance; found 'al'");
+    expect_trial("rsm: {clamp: [1, 2, 1.0]}", "@:3:25: rsm.clamp: 1 stands here twice");
+    expect_trial("rsm: {samples: [4, 9]}\n  - rsm:samples=9",
+                 "@:4:5: trial 'rsm:samples=9' stands here twice");
+    expect_trial("rsm:samples=9\n  - rsm: {samples: [4, 9]}",
+                 "@:4:5: trial 'rsm:samples=9' stands here twice");
+    expect_trial("plain: [1, 2]", "@:3:12: plain: expected a map of keys, found a list");
+}
+
+static void test_matrix(void **state)
+{
+    (void)state;
+    expect_trial("rsm: {matrix: 3}",
+                 "@:3:19: rsm.matrix: expected a list of maps, found a single value");
+    expect_trial("rsm: {matrix: }", "@:3:19: rsm.matrix: expected a list of maps, found nothing");
+    expect_trial("rsm: {matrix: []}",
+                 "@:3:19: rsm.matrix: expected a list of maps, found an empty one");
+    expect_trial("rsm: {matrix: [all]}",
+                 "@:3:20: rsm: expected a map of keys, found a single value");
+    expect_trial("rsm: {matrix: [{mod: all}]}",
+                 "@:3:21: rsm: unknown key 'mod'; did you mean 'mode'?");
+    expect_trial("rsm: {matrix: [{mode: al}]}",
+                 "@:3:27: rsm: mode: expected one of all, uniform, importance; found 'al'");
+    expect_trial("rsm: {matrix: [{mode: all}, {mode: all}]}",
+                 "@:3:5: trial 'rsm:mode=all' stands here twice");
+    expect_trial("rsm: {matrix: [{matrix: [{mode: all}]}]}",
+                 "@:3:29: rsm.matrix: expected no matrix inside it");
+    /* a value that every entry replaces is checked no less */
+    expect_trial("rsm: {mode: al, matrix: [{mode: all}]}",
+                 "@:3:17: rsm: mode: expected one of all, uniform, importance; found 'al'");
+}
+
+/* "[1, 2, ..., count]", malloc'ed. */
+static char *numbers(int count)
+{
+    struct irb_str text = {0};
+    for (int i = 1; i <= count; i++)
+        irb_str_printf(&text, "%s%d", i > 1 ? ", " : "[", i);
+    irb_str_printf(&text, "]");
+    return text.text;
+}
+
+static void test_too_many(void **state)
+{
+    (void)state;
+    char *many = numbers(1001), *some = numbers(100);
+    char *text = irb_asprintf("rsm: {samples: %s}", many);
+    expect_trial(text, "@:3:20: rsm.samples: expected at most 1000 trials, found 1001 with these "
+                       "values");
+    free(text);
+    text = irb_asprintf("rsm: {clamp: [0, 1, 2, 3], mode: [all, uniform, importance], samples: %s}",
+                        some);
+    expect_trial(text, "@:3:18: rsm.clamp: expected at most 1000 trials, found 1200 with these "
+                       "values");
+    free(text);
+    text = irb_asprintf("rsm: {clamp: 0.5, mode: [all, uniform, importance], samples: %s}\n"
+                        "  - rsm: {clamp: 0.6, mode: [all, uniform, importance], samples: %s}\n"
+                        "  - rsm: {clamp: 0.7, mode: [all, uniform, importance], samples: %s}\n"
+                        "  - rsm: {clamp: 0.8, mode: [all, uniform, importance], samples: %s}",
+                        some, some, some, some);
+    expect_trial(text, "@:6:5: trials: expected at most 1000, found more");
+    free(text);
+    text = irb_asprintf("scene: cornell\nseeds: 11\ntrials: [{rsm: {samples: %s}}]\n", some);
+    expect(text, "@: expected at most 1000 trials, each seed counted, found 100 with 11 seeds");
+    free(text);
+    free(some);
+    free(many);
+}
+
+static void test_seeds(void **state)
+{
+    (void)state;
+    expect_top("seeds: 0", "@:2:8: seeds: expected a whole number in [1, 100]; found '0'");
+    expect_top("seeds: many", "@:2:8: seeds: expected a whole number in [1, 100]; found 'many'");
+    expect_top("seeds:", "@:2:7: seeds: expected a whole number in [1, 100]; found ''");
+    expect_top("seeds: []", "@:2:8: seeds: expected a number or a list of seeds, found an empty "
+                            "list");
+    expect_top("seeds: {a: 1}",
+               "@:2:8: seeds: expected a number or a list of seeds, found a map");
+    expect_top("seeds: [1, -1]",
+               "@:2:12: seeds: seed: expected a whole number in [0, 2.14748e+09]; found '-1'");
+    expect_top("seeds: [1, [2]]", "@:2:12: seeds: expected a single value, found a list");
+    expect_top("seeds: [1, 2, 1]", "@:2:15: seeds: 1 stands here twice");
+    expect_top("seeds: [1, 2]\nseed: 3", "@:2:8: seeds: expected seed: or seeds:, found both");
+    char *many = numbers(101);
+    char *text = irb_asprintf("seeds: %s", many);
+    /* its 101st number: 9 of one digit, 90 of two, 1 of three before it, two characters between */
+    char *message = irb_asprintf("@:2:%d: seeds: expected at most 100, found more",
+                                 8 + 1 + 9 * 1 + 90 * 2 + 3 + 100 * 2);
+    expect_top(text, message);
+    free(message);
+    free(text);
+    free(many);
 }
 
 /* A sequence of control characters must not break the line, nor the terminal. */
@@ -450,6 +555,11 @@ static void test_overrides(void **state)
     expect_override("light.cone=3",
                     "--set light.cone=3: light can't be set from the command line; only single "
                     "values can, such as frames or reference.noise");
+    expect_override("seeds=1,x", "--set seeds=1,x: seeds: seed: expected a whole number in [0, "
+                                 "2.14748e+09]; found 'x'");
+    expect_override("seeds=1,1", "--set seeds=1,1: seeds: 1 stands here twice");
+    expect_override("seeds=,", "--set seeds=,: seeds: seed: expected a whole number in [0, "
+                               "2.14748e+09]; found ''");
     expect_override("resolution=3",
                     "--set resolution=3: resolution: expected WIDTHxHEIGHT, found '3'");
     expect_override("resolution=3x0",
@@ -470,6 +580,8 @@ int main(void)
         cmocka_unit_test(test_light),        cmocka_unit_test(test_keys),
         cmocka_unit_test(test_camera),       cmocka_unit_test(test_trials),
         cmocka_unit_test(test_one_line),     cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_sweeps),       cmocka_unit_test(test_matrix),
+        cmocka_unit_test(test_too_many),     cmocka_unit_test(test_seeds),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

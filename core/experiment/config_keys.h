@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Every key of a config that is in no option table. The readers accept just what stands here, and
+ * `irbench docs config` prints it: a key without documentation can't be read.
+ *
+ * X(key, value that is expected, one line)
+ */
+#ifndef IRB_EXPERIMENT_CONFIG_KEYS_H
+#define IRB_EXPERIMENT_CONFIG_KEYS_H
+
+#define IRB_CONFIG_TOP_KEYS(X)                                                                     \
+    X("name", "text", "name of the run's folder and of its reports; the file's name by default")   \
+    X("seed", "whole number", "seed of every random choice; 1 by default")                         \
+    X("seeds", "list of numbers, or how many",                                                     \
+      "instead of seed: every trial is run with each of these seeds; 5 means 1, 2, 3, 4, 5")       \
+    X("resolution", "[width, height]", "of the images, pixels")                                    \
+    X("reference", "map", "how the ray-traced reference is made")                                  \
+    X("scenes", "list of maps", "scenes, each with its view and script")                           \
+    X("scene", "text", "instead of scenes, with camera, light and regions beside it: the only one") \
+    X("camera", "map", "of the only scene")                                                        \
+    X("light", "map", "of the only scene")                                                         \
+    X("regions", "list of maps", "of the only scene")                                              \
+    X("trials", "list", "methods with their parameters")
+
+#define IRB_CONFIG_SCENE_KEYS(X)                                                                   \
+    X("scene", "text",                                                                             \
+      "name of a built-in scene, or path of a glTF file, relative to the config; ${NAME} is an "   \
+      "environment variable")                                                                      \
+    X("name", "text", "what tables and folders call it; the built-in's or the file's name by "     \
+                      "default")                                                                   \
+    X("camera", "map", "a built-in scene has its own")                                             \
+    X("light", "map", "a built-in scene has its own")                                              \
+    X("regions", "list of maps", "boxes of the image that are scored on their own")
+
+#define IRB_CONFIG_REGION_KEYS(X)                                                                  \
+    X("name", "text", "what tables call it")                                                       \
+    X("box", "[x0, y0, x1, y1]",                                                                   \
+      "upper left corner and the one below right of it (exclusive): pixels, or fractions of the "  \
+      "image where all four are at most 1")
+
+/* What is said once of a camera, and what each of its keys may say. */
+#define IRB_CONFIG_CAMERA_SETTINGS(X)                                                              \
+    X("interpolation", "linear|catmull-rom", "between keys; linear by default")                    \
+    X("near", "number, m", "near plane; 0, the default, takes it from the scene's size")           \
+    X("far", "number, m", "far plane; 0, the default, takes it from the scene's size")             \
+    X("keys", "list of maps", "keyframes; a single one may stand in camera itself")
+#define IRB_CONFIG_CAMERA_KEY(X)                                                                   \
+    X("position", "[x, y, z], m", "of the eye")                                                    \
+    X("target", "[x, y, z], m", "point that is looked at")                                         \
+    X("up", "[x, y, z]", "direction that is up in the image; [0, 1, 0] by default")                \
+    X("fov", "degrees, 0 to 180", "vertical angle of view; 45 by default")
+
+#define IRB_CONFIG_LIGHT_SETTINGS(X)                                                               \
+    X("type", "spot|directional", "spot by default")                                               \
+    X("falloff", "constant|smooth|cosine",                                                         \
+      "of a spot light's intensity towards the rim of its cone")                                   \
+    X("beam_half_width", "number, m",                                                              \
+      "of a directional light's square beam; 0, the default, takes in the whole scene")            \
+    X("interpolation", "linear|catmull-rom", "between keys; linear by default")                    \
+    X("keys", "list of maps", "keyframes; a single one may stand in light itself")
+#define IRB_CONFIG_LIGHT_KEY(X)                                                                    \
+    X("position", "[x, y, z], m", "of the light")                                                  \
+    X("target", "[x, y, z], m", "point on the light's axis")                                       \
+    X("intensity", "number or [r, g, b]", "W/sr; of a directional light W/m2 across the beam")     \
+    X("cone", "degrees, 0 to 90", "half-angle of the cone; 45 by default")                         \
+    X("inner", "degrees, 0 to 90", "smooth falloff: half-angle of full intensity; 0 by default")
+
+/* Of both. */
+#define IRB_CONFIG_KEY_TIME(X)                                                                     \
+    X("frame", "number", "time of the key in frames; rises from key to key")
+
+/* The names alone, for lists of what is allowed. */
+#define IRB_CONFIG_KEY_NAME(name, value, doc) name,
+
+#endif

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/experiment/run_trials.h"
+#include "core/base/str.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool unknown_trial(const struct irb_config *config, const char *name, struct irb_error *err)
+{
+    const char *names[IRB_MOST_TRIALS];
+    for (int i = 0; i < config->trial_count; i++)
+        names[i] = config->trials[i].name;
+    const char *near = irb_nearest(name, names, (size_t)config->trial_count);
+    return irb_fail(err, IRB_E_USAGE, "--only: the config has no trial '%s'%s%s%s", name,
+                    near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
+/* Whether each of the config's trials is to be run. */
+static bool select_trials(bool wanted[IRB_MOST_TRIALS], const struct irb_config *config,
+                          const struct irb_run_options *options, struct irb_error *err)
+{
+    for (int i = 0; i < config->trial_count; i++)
+        wanted[i] = !options->only_count;
+    for (int o = 0; o < options->only_count; o++) {
+        bool found = false;
+        for (int i = 0; i < config->trial_count; i++) {
+            if (strcmp(config->trials[i].name, options->only[o]))
+                continue;
+            wanted[i] = found = true;
+        }
+        if (!found)
+            return unknown_trial(config, options->only[o], err);
+    }
+    return true;
+}
+
+bool irb_run_trials(struct irb_config *selected, const struct irb_config *config,
+                    const struct irb_run_options *options, struct irb_error *err)
+{
+    bool wanted[IRB_MOST_TRIALS];
+    *selected = *config;
+    selected->trial_count = 0;
+    selected->trials =
+        calloc((size_t)config->trial_count * (size_t)config->seed_count, sizeof *selected->trials);
+    if (!selected->trials)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", config->trial_count);
+    if (!select_trials(wanted, config, options, err))
+        return false;
+    for (int i = 0; i < config->trial_count; i++) {
+        for (int s = 0; wanted[i] && s < config->seed_count; s++) {
+            struct irb_trial *trial = &selected->trials[selected->trial_count++];
+            *trial = config->trials[i];
+            trial->seed = config->seeds[s];
+            trial->folder = config->seed_count > 1
+                                ? irb_asprintf("%s/seed-%d", trial->name, trial->seed)
+                                : irb_strdup(trial->name);
+        }
+    }
+    return true;
+}
+
+void irb_run_trials_free(struct irb_config *selected)
+{
+    for (int i = 0; i < selected->trial_count; i++)
+        free(selected->trials[i].folder);
+    free(selected->trials);
+    selected->trials = NULL;
+    selected->trial_count = 0;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The trials of a run: those of the config, or what --only names, each once for every seed.
+ */
+#ifndef IRB_EXPERIMENT_RUN_TRIALS_H
+#define IRB_EXPERIMENT_RUN_TRIALS_H
+
+#include "core/experiment/run.h"
+
+/* Sets trials and trial_count of *selected, a copy of *config; the seeds of a trial follow one
+ * another. Parameters and names are borrowed from *config. IRB_E_USAGE for a name in --only that
+ * the config lacks. */
+bool irb_run_trials(struct irb_config *selected, const struct irb_config *config,
+                    const struct irb_run_options *options, struct irb_error *err);
+void irb_run_trials_free(struct irb_config *selected);
+
+#endif
