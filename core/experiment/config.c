@@ -6,9 +6,8 @@
 #include "core/base/str.h"
 #include "core/experiment/config_keys.h"
 #include "core/experiment/config_parts.h"
-
 #include "core/frame/layout.h"
-#include <limits.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,21 +41,6 @@ static const char *const top_keys[] = {IRB_CONFIG_TOP_KEYS(IRB_CONFIG_KEY_NAME)}
 enum { TOP_KEYS = sizeof top_keys / sizeof *top_keys };
 
 /* ---- single settings, from the file and from --set alike ---- */
-
-static bool set_seed(struct irb_config *config, const char *text, struct irb_error *err)
-{
-    struct seed {
-        int seed;
-    } value;
-    static const struct irb_option options[] = {
-        IRB_OPTION_INT(struct seed, seed, 1, 0, INT_MAX, "", "seed of every random choice", "ours"),
-        IRB_OPTION_END,
-    };
-    if (!irb_option_set(options, &value, "seed", text, err))
-        return false;
-    config->seed = value.seed;
-    return true;
-}
 
 static bool set_name(struct irb_config *config, const char *text, struct irb_error *err)
 {
