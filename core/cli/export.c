@@ -4,7 +4,7 @@
  */
 #include "core/cli/cli.h"
 #include "core/scene/builtin.h"
-#include "core/scene/gltf_write.h"
+#include "core/scene/gltf/write.h"
 
 #include <string.h>
 #include <strings.h>

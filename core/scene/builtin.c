@@ -4,7 +4,7 @@
  */
 #include "core/scene/builtin.h"
 
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "core/base/str.h"
 #include "core/scene/builtin.h"
-#include "core/scene/gltf_load.h"
+#include "core/scene/gltf/load.h"
 #include "core/scene/motion.h"
 #include "core/scene/vec.h"
 

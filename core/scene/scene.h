@@ -78,7 +78,7 @@ void irb_scene_destroy(struct irb_scene *scene); /* frees the scene too; NULL is
 /* Loads a built-in by its name, or a .gltf/.glb file by its path. IRB_E_INPUT names what is wrong:
  * a missing or truncated file, an index out of range, a non-finite vertex (mesh and number), no
  * triangles, a texture that is missing. Warnings (dropped lights, degenerate triangles) go to log.
- * What glTF materials become: core/scene/gltf_load.h. */
+ * What glTF materials become: core/scene/gltf/load.h. */
 struct irb_scene *irb_scene_load(const char *name_or_path, struct irb_log *log,
                                  struct irb_error *err);
 

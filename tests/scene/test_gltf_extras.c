@@ -4,7 +4,7 @@
  * animations, against closed forms.
  */
 #include "core/scene/builtin.h"
-#include "core/scene/gltf_write.h"
+#include "core/scene/gltf/write.h"
 
 #include "tests/support/compare.h"
 #include "tests/scene/gltf_files.h"

@@ -28,7 +28,7 @@
 #define IRB_SCENE_GLTF_LOAD_H
 
 #include "core/scene/builder.h"
-#include "core/scene/gltf.h"
+#include "core/scene/gltf/gltf.h"
 
 /* As irb_scene_load, for a path. */
 struct irb_scene *irb_gltf_load(const char *path, struct irb_log *log, struct irb_error *err);

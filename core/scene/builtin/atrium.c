@@ -5,10 +5,10 @@
  * the lower arches, drapes over the balustrades. Walls, paving and cloth carry finely structured
  * textures. x runs along the court.
  */
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
-#include "core/scene/builtin_texture.h"
-#include "core/scene/kit.h"
+#include "core/scene/builtin/texture.h"
+#include "core/scene/builtin/kit.h"
 
 #include <math.h>
 

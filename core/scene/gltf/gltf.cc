@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The only C++ of this folder: tinygltf behind core/scene/gltf.h.
-#include "core/scene/gltf.h"
+// The only C++ of this folder: tinygltf behind core/scene/gltf/gltf.h.
+#include "core/scene/gltf/gltf.h"
 
 extern "C" {
 #include "core/base/error.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/scene/kit.h"
+#include "core/scene/builtin/kit.h"
 
 #include "core/scene/vec.h"
 

@@ -2,7 +2,7 @@
  *
  * The first animation of a glTF file.
  */
-#include "core/scene/gltf_load.h"
+#include "core/scene/gltf/load.h"
 
 #include "core/scene/motion.h"
 #include "core/scene/vec.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/scene/gltf_load.h"
+#include "core/scene/gltf/load.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
  * the red one not exactly flat: a quad is the triangles (0,1,2), (0,2,3). No front wall; the
  * ceiling has no opening, because the light of a trial is a spot and not the box's lamp.
  */
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
 #define METRES_PER_MM 1e-3
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/scene/builtin_texture.h"
+#include "core/scene/builtin/texture.h"
 
 #include <math.h>
 #include <stdlib.h>

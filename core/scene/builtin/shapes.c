@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
 #include "core/scene/vec.h"
 

@@ -4,9 +4,9 @@
  * door between them ajar; after the door scene of Veach 1997) and `corridor` (L-shaped, the lamp
  * round the corner). Both are built of solid slabs that run into each other, so that nothing leaks.
  */
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
-#include "core/scene/kit.h"
+#include "core/scene/builtin/kit.h"
 
 #include <math.h>
 

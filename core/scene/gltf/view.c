@@ -2,7 +2,7 @@
  *
  * Lights and cameras of glTF files.
  */
-#include "core/scene/gltf_load.h"
+#include "core/scene/gltf/load.h"
 
 #include "core/scene/vec.h"
 

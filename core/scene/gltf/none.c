@@ -2,7 +2,7 @@
  *
  * In a build without tinygltf.
  */
-#include "core/scene/gltf.h"
+#include "core/scene/gltf/gltf.h"
 
 #include "core/base/error.h"
 

@@ -7,9 +7,9 @@
  * The inside is one closed surface in the sense that a ray cannot leave it; its pieces run into
  * each other behind ribs, piers and cornices.
  */
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
-#include "core/scene/kit.h"
+#include "core/scene/builtin/kit.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  *
  * Scenes whose indirect light has a closed form.
  */
-#include "core/scene/builtin_geometry.h"
+#include "core/scene/builtin/geometry.h"
 
 /* The same in every channel; 1/2 keeps later bounces well above rounding. */
 static const float half_grey[3] = {0.5f, 0.5f, 0.5f};
