@@ -15,6 +15,12 @@
 
 enum { IRB_CLI_MAX_ARGUMENTS = 32 };
 
+/* A bound on a metric: --max METRIC=VALUE or --min. */
+struct irb_cli_bound {
+    const char *text;
+    bool most;
+};
+
 /* What the options said; positional arguments without the command's name. */
 struct irb_cli {
     const char *arguments[IRB_CLI_MAX_ARGUMENTS];
@@ -24,6 +30,9 @@ struct irb_cli {
     const char *only[IRB_CLI_MAX_ARGUMENTS]; /* --only, trial names */
     int only_count;
     char *seed;              /* owned: the override that --seed became */
+    struct irb_cli_bound bounds[IRB_CLI_MAX_ARGUMENTS];
+    int bound_count;
+    const char *layer;       /* --layer */
     const char *out;         /* --out, NULL = default */
     const char *shader_dir;  /* --shader-dir */
     const char *format;      /* --format, NULL = text */
@@ -45,6 +54,7 @@ bool irb_command_reference(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_list(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_show(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_compare(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_export_scene(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err);
 

@@ -31,6 +31,16 @@ const struct irb_command irb_commands[] = {
      irb_command_show},
     {"inspect", "SCENE", 1, 1, "say what a scene file or built-in holds",
      "\n  irbench inspect cornell\n  irbench inspect sibenik.glb\n", irb_command_inspect},
+    {"compare", "IMAGE REFERENCE", 2, 2, "every image metric between two image files",
+     "\nOpenEXR files, or any image that OpenImageIO reads. Two files of a display-referred format\n"
+     "(PNG, JPEG, ...) are compared as they are shown; all others hold radiance, which SSIM and\n"
+     "LDR-FLIP see tone-mapped at an exposure from the reference. --max and --min bound the\n"
+     "metrics by the values printed: the exit status is 1 where one does not hold, or is not\n"
+     "defined. --out DIR writes the maps: maps.exr, and a PNG of each in false colour.\n\n"
+     "  irbench compare image.exr reference.exr\n"
+     "  irbench compare image.exr reference.exr --layer indirect --format json\n"
+     "  irbench compare image.exr reference.exr --max flip=0.05 --min ssim=0.98 --out maps\n",
+     irb_command_compare},
     {"export-scene", "SCENE FILE.glb", 2, 2, "write a scene with its view for other renderers",
      "\nGeometry, materials, textures, camera and light of frame 0; units one to one (W/sr).\n\n"
      "  irbench export-scene hall hall.glb\n",

@@ -107,6 +107,31 @@ static bool set_format(struct irb_cli *cli, const char *value, struct irb_error 
     return true;
 }
 
+static bool add_bound(struct irb_cli *cli, const char *value, bool most, struct irb_error *err)
+{
+    if (cli->bound_count == IRB_CLI_MAX_ARGUMENTS)
+        return irb_fail(err, IRB_E_USAGE, "--max, --min: at most %d bounds", IRB_CLI_MAX_ARGUMENTS);
+    cli->bounds[cli->bound_count++] = (struct irb_cli_bound){value, most};
+    return true;
+}
+
+static bool set_max(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    return add_bound(cli, value, true, err);
+}
+
+static bool set_min(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    return add_bound(cli, value, false, err);
+}
+
+static bool set_layer(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->layer = value;
+    return true;
+}
+
 static bool set_shader_dir(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)err;
@@ -141,7 +166,8 @@ static bool set_quiet(struct irb_cli *cli, const char *value, struct irb_error *
 }
 
 static const struct cli_option options[] = {
-    {"--out", "-o", "DIR", "run folder (default results/runs/NAME-KEY)", set_out},
+    {"--out", "-o", "DIR", "run folder (default results/runs/NAME-KEY); folder of compare's maps",
+     set_out},
     {"--set", NULL, "KEY=VALUE", "override a config value: frames=4, reference.noise=0.02",
      set_override},
     {"--seed", NULL, "N", "override the config's seed", set_seed},
@@ -153,6 +179,9 @@ static const struct cli_option options[] = {
     {"--module", NULL, "FILE.so", "load a method from a shared object", set_module},
     {"--threads", NULL, "N", "threads of reference and scoring (default: all cores)", set_threads},
     {"--format", NULL, "FORMAT", "of tables: text (default), csv, md or json", set_format},
+    {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
+    {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
+    {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},
     {"--key", NULL, NULL, "reference: print the cache key of every frame and stop", set_key},
     {"--verbose", "-v", NULL, "say more", set_verbose},
     {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},

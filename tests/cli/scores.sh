@@ -1,0 +1,102 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# What a run stores beside the main columns: regions, masked pixels, lag, constants.
+. "$SOURCE/tests/cli/lib.sh"
+need_gl
+python=$(command -v python3) || {
+    echo "skipped: no python3 to read the tables with"
+    exit 77
+}
+
+cat >"$work/scores.yaml" <<'YAML'
+name: scores
+scene: cornell
+resolution: [40, 30]
+frames: 8
+settle: 1
+rsm_resolution: 64
+reference: {min_samples: 64, max_samples: 64}
+light:
+  keys:
+    - {frame: 0, position: [0.25, 0.5, 0.12], target: [0.45, 0.0, 0.1], intensity: 1, cone: 30}
+    - {frame: 7, position: [0.25, 0.5, 0.12], target: [0.55, 0.25, 0.35], intensity: 1, cone: 30}
+regions:
+  - {name: all, box: [0, 0, 1, 1]}
+  - {name: left, box: [0, 0, 0.5, 1]}
+  - {name: right, box: [20, 0, 40, 30]}
+  - {name: patch, box: [10, 8, 14, 12]}
+trials:
+  - rsm: {mode: all, clamp: 100}
+YAML
+json() { # json RUN: the table, as a Python expression's `row`
+    "$IRBENCH" table "$1" --format json
+}
+holds() { # holds WHAT EXPRESSION: on standard input a table of one row, and `before` of an earlier run
+    checks=$((checks + 1))
+    "$python" -c '
+import json, math, sys
+row = json.load(open(sys.argv[1]))[0]
+before = json.load(open(sys.argv[2]))[0]
+def near(a, b, tolerance=1e-6):
+    return abs(a - b) <= tolerance * max(abs(a), abs(b))
+if not eval(sys.argv[3]):
+    sys.exit("does not hold")
+' "$work/now.json" "$work/before.json" "$2" 2>"$work/err" && return
+    echo "FAIL: $1: $2"
+    sed 's/^/    /' "$work/err"
+    failures=$((failures + 1))
+}
+
+check "a run" "$IRBENCH" run "$work/scores.yaml" --out "$work/plain"
+json "$work/plain" >"$work/now.json"
+cp "$work/now.json" "$work/before.json"
+for metric in rmse relmse bias flip flicker; do
+    for image in indirect full; do
+        holds "the region of the whole image" "near(row['${image}_$metric@all'], row['${image}_$metric'])"
+    done
+done
+# A mean over the image is that of two halves, weighed by their pixels with geometry: one share for
+# all metrics.
+share="(row['full_bias'] - row['full_bias@right']) / (row['full_bias@left'] - row['full_bias@right'])"
+for metric in full_relmse full_flip indirect_relmse indirect_bias indirect_flip; do
+    holds "two halves make a whole" "0.4 < $share < 0.6 and near(row['$metric'], row['$metric@left'] * $share + row['$metric@right'] * (1 - $share), 1e-5)"
+done
+holds "a patch is no whole" "not near(row['full_rmse@patch'], row['full_rmse'], 1e-3)"
+holds "nothing is masked" "row['masked_share'] == 0"
+holds "a method without history has no lag" "row['lag'] == 0"
+holds "shares and similarities" "0 < row['indirect_smape'] < 1 and 0 < row['indirect_ssim'] < 1 and 0 < row['full_ldr_flip'] < 1 and 0 < row['full_temporal_flip'] < 1"
+"$IRBENCH" table "$work/plain" >"$work/text"
+checks=$((checks + 1))
+peak=$(sed -n 's/.*PSNR peak \([^ ]*\) and.*/\1/p' "$work/text")
+[ -n "$peak" ] && holds "PSNR from RMSE and the printed peak" \
+    "abs(row['indirect_psnr'] - 20 * math.log10($peak / row['indirect_rmse'])) < 0.05" || {
+    echo "FAIL: the table does not print PSNR's peak"
+    failures=$((failures + 1))
+}
+
+check "prepared" "$IRBENCH" run "$work/scores.yaml" --out "$work/again" --stage prepare
+check "rendered" "$IRBENCH" run "$work/scores.yaml" --out "$work/again" --stage render
+
+# Pixels that are masked between rendering and scoring: the region `patch`, in all frames, for the
+# camera rests.
+"$python" - "$SOURCE/tests/score" "$work/again/cornell/mask-0000.exr" <<'PY'
+import sys
+sys.path.insert(0, sys.argv[1])
+sys.dont_write_bytecode = True
+import oracle
+mask = [[(float(10 <= x < 14 and 8 <= y < 12),) for x in range(40)] for y in range(30)]
+oracle.write_exr(sys.argv[2], mask, ("mask.Y",))
+PY
+check "scored with a mask" "$IRBENCH" run "$work/scores.yaml" --out "$work/again" --stage score
+json "$work/again" >"$work/now.json"
+holds "the share of 16 pixels" "16 / 1200 <= row['masked_share'] <= 16 / 300"
+holds "a region without a pixel has no score" "row.get('full_rmse@patch') is None and row.get('full_flip@patch') is None"
+holds "the other pixels count" "row['indirect_rmse'] > 0 and row['indirect_rmse'] != before['indirect_rmse']"
+
+# A light at rest: no lag.
+sed 's/^    - {frame: 7.*//' "$work/scores.yaml" >"$work/rest.yaml"
+check "a light at rest" "$IRBENCH" run "$work/rest.yaml" --out "$work/rest"
+json "$work/rest" >"$work/now.json"
+holds "no lag where nothing changes" "row['lag'] is None"
+holds "no flicker either" "row['indirect_temporal_flip'] == 0 and row['indirect_flicker'] == 0"
+finish
