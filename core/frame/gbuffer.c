@@ -55,10 +55,10 @@ struct irb_gbuffer *irb_gbuffer_create_layout(struct irb_gl *gl, enum irb_layout
                                               int height, struct irb_error *err)
 {
     const bool slim = layout == IRB_LAYOUT_SLIM;
-    const struct irb_program_desc program = {
-        .name = slim ? "slim gbuffer" : "gbuffer",
-        .vertex = "frame/geometry.vert",
-        .fragment = slim ? "frame/gbuffer_slim.frag" : "frame/gbuffer.frag"};
+    const struct irb_program_desc program = {.name = slim ? "slim gbuffer" : "gbuffer",
+                                             .vertex = "frame/geometry.vert",
+                                             .fragment = slim ? "frame/gbuffer_slim.frag"
+                                                              : "frame/gbuffer.frag"};
     struct irb_gbuffer *gbuffer = calloc(1, sizeof *gbuffer);
     if (!gbuffer) {
         irb_fail(err, IRB_E_MEMORY, "out of memory");
@@ -158,9 +158,9 @@ bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *
 
 int irb_gbuffer_pixel_bytes(const struct irb_gbuffer *gbuffer)
 {
-    const struct irb_texture *const layers[] = {gbuffer->position, gbuffer->normal,
+    const struct irb_texture *const layers[] = {gbuffer->position,  gbuffer->normal,
                                                 gbuffer->geometric, gbuffer->diffuse,
-                                                gbuffer->specular, gbuffer->depth};
+                                                gbuffer->specular,  gbuffer->depth};
     int64_t bytes = 0;
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
         bytes += layers[i] ? layers[i]->bytes : 0;
@@ -180,12 +180,9 @@ int irb_gbuffer_bind(const struct irb_gbuffer *gbuffer, const struct irb_program
         const char *name;
         const struct irb_texture *texture;
     } layers[] = {
-        {"gbuffer_normal", gbuffer->normal},
-        {"gbuffer_diffuse", gbuffer->diffuse},
-        {"gbuffer_specular", gbuffer->specular},
-        {"gbuffer_depth", slim ? gbuffer->depth : NULL},
-        {"gbuffer_position", gbuffer->position},
-        {"gbuffer_geometric", gbuffer->geometric},
+        {"gbuffer_normal", gbuffer->normal},     {"gbuffer_diffuse", gbuffer->diffuse},
+        {"gbuffer_specular", gbuffer->specular}, {"gbuffer_depth", slim ? gbuffer->depth : NULL},
+        {"gbuffer_position", gbuffer->position}, {"gbuffer_geometric", gbuffer->geometric},
     };
     int unit = first_unit;
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
@@ -198,8 +195,7 @@ int irb_gbuffer_bind(const struct irb_gbuffer *gbuffer, const struct irb_program
     irb_program_vec3(program, "gbuffer_up", gbuffer->up);
     irb_program_vec3(program, "gbuffer_back", gbuffer->back);
     irb_program_vec2(program, "gbuffer_tangent", gbuffer->tangent);
-    irb_program_vec2(program, "gbuffer_near_far",
-                     (const float[]){gbuffer->z_near, gbuffer->z_far});
+    irb_program_vec2(program, "gbuffer_near_far", (const float[]){gbuffer->z_near, gbuffer->z_far});
     return unit;
 }
 

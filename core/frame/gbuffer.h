@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The camera's G-buffer, in full precision (all 32-bit float; thesis 5.1.1 without its packing) or in
- * the thesis's slim layout. The reference, the direct light and the masks use the full one only;
+ * The camera's G-buffer, in full precision (all 32-bit float; thesis 5.1.1 without its packing) or
+ * in the thesis's slim layout. The reference, the direct light and the masks use the full one only;
  * methods are given either, and read both through irb_gbuffer_bind().
  */
 #ifndef IRB_FRAME_GBUFFER_H
@@ -16,11 +16,11 @@ struct irb_gbuffer {
     int width, height;
     enum irb_layout layout;
     /* full | slim, where the layers differ */
-    struct irb_texture *position; /* RGBA32F: world position (m), 1 where there is geometry, else 0 |
-                                     NULL */
-    struct irb_texture *normal; /* RGBA32F: unit shading normal on the side that is seen; linear
-                                   Euclidean distance to the camera (m) in w | RG16: spheremap of
-                                   the normal in view space */
+    struct irb_texture *position;  /* RGBA32F: world position (m), 1 where there is geometry, else 0
+                                      |  NULL */
+    struct irb_texture *normal;    /* RGBA32F: unit shading normal on the side that is seen; linear
+                                      Euclidean distance to the camera (m) in w | RG16: spheremap of
+                                      the normal in view space */
     struct irb_texture *geometric; /* RGBA32F: unit normal of the triangle, same side; 0 | NULL */
     struct irb_texture *diffuse;   /* RGBA32F: k_d; 0 | RGBA8 */
     struct irb_texture *specular;  /* RGBA32F: k_s; exponent alpha | RGBA8: k_s; log of alpha */
@@ -29,9 +29,9 @@ struct irb_gbuffer {
     struct irb_program *program;
     /* of the last render; the slim layout's positions and normals are decoded with them */
     float camera_position[3], right[3], up[3], back[3]; /* world; unit */
-    float tangent[2]; /* of half the field of view, across and up */
+    float tangent[2];    /* of half the field of view, across and up */
     float z_near, z_far; /* m */
-    struct irb_gl *gl; /* borrowed */
+    struct irb_gl *gl;   /* borrowed */
 };
 
 /* In full precision. */

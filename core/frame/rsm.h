@@ -19,13 +19,14 @@ struct irb_rsm {
     int resolution; /* texels a side */
     enum irb_layout layout;
     /* full | slim, where the layers differ */
-    struct irb_texture *position; /* RGBA32F: world position (m); 1 where there is geometry | NULL */
-    struct irb_texture *normal;   /* RGBA32F: unit shading normal on the lit side; Euclidean
-                                     distance to the light (spot) or along the beam (m) | RG16:
-                                     spheremap of the normal in the light's frame */
-    struct irb_texture *flux;     /* RGBA32F: reflected flux Phi_p = k_d I dw_p (W); flux in,
-                                     averaged over the channels (W) | RGBA8: reflected flux in
-                                     units of flux_scale; 0 */
+    struct irb_texture
+        *position;              /* RGBA32F: world position (m); 1 where there is geometry | NULL */
+    struct irb_texture *normal; /* RGBA32F: unit shading normal on the lit side; Euclidean
+                                   distance to the light (spot) or along the beam (m) | RG16:
+                                   spheremap of the normal in the light's frame */
+    struct irb_texture *flux;   /* RGBA32F: reflected flux Phi_p = k_d I dw_p (W); flux in,
+                                   averaged over the channels (W) | RGBA8: reflected flux in
+                                   units of flux_scale; 0 */
     struct irb_texture *specular; /* RGBA32F: k_s; exponent: for importance (thesis 4.5) | RGBA8:
                                      k_s; log of the exponent */
     struct irb_texture *depth;    /* DEPTH_COMPONENT32F, reversed (1 near, 0 far): the rasteriser's
@@ -38,9 +39,9 @@ struct irb_rsm {
                                   (m) */
     bool directional;
     float light_position[3], right[3], up[3], direction[3]; /* the light's frame, world */
-    float depth_range; /* m: spot: distance at depth 1; directional: at depth 0 */
+    float depth_range;   /* m: spot: distance at depth 1; directional: at depth 0 */
     float flux_scale[3]; /* W: the most that a texel of albedo 1 reflects */
-    struct irb_gl *gl;         /* borrowed */
+    struct irb_gl *gl;   /* borrowed */
 };
 
 /* In full precision. */

@@ -41,9 +41,8 @@ static bool create_pyramid(struct irb_gl *gl, struct irb_vpl_sampler *s, struct 
     s->pyramid_levels = 1;
     while (1 << (s->pyramid_levels - 1) < s->resolution)
         s->pyramid_levels++;
-    s->pyramid_sums =
-        irb_buffer_create(gl, "vpl: pyramid",
-                          4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL, err);
+    s->pyramid_sums = irb_buffer_create(
+        gl, "vpl: pyramid", 4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL, err);
     return s->pyramid_sums != NULL;
 }
 
@@ -63,15 +62,15 @@ static bool create_programs(struct irb_vpl_set *set, enum irb_layout layout, str
     const enum irb_vpl_sampling sampling = set->sampling;
     destroy_programs(s);
     s->layout = layout;
-    return (s->count = create_program(gl, sampling, layout, "vpl: count", "lights/vpl_count.comp",
-                                      err)) &&
+    return (s->count =
+                create_program(gl, sampling, layout, "vpl: count", "lights/vpl_count.comp", err)) &&
            (s->scan =
                 create_program(gl, sampling, layout, "vpl: scan", "lights/vpl_scan.comp", err)) &&
-           (s->write = create_program(gl, sampling, layout, "vpl: write", "lights/vpl_write.comp",
-                                      err)) &&
+           (s->write =
+                create_program(gl, sampling, layout, "vpl: write", "lights/vpl_write.comp", err)) &&
            (sampling != IRB_VPL_IMPORTANCE ||
-            (s->pyramid = create_program(gl, sampling, layout, "vpl: pyramid",
-                                         "lights/pyramid.comp", err)));
+            (s->pyramid =
+                 create_program(gl, sampling, layout, "vpl: pyramid", "lights/pyramid.comp", err)));
 }
 
 /* Candidates that one invocation walks through: about the square root of their number, which

@@ -32,8 +32,8 @@ void rsm_energy_destroy(struct rsm_energy *energy)
     free(energy);
 }
 
-bool rsm_energy_lost(struct rsm_energy *energy, const struct irb_texture *irradiance,
-                     double *share, struct irb_error *err)
+bool rsm_energy_lost(struct rsm_energy *energy, const struct irb_texture *irradiance, double *share,
+                     struct irb_error *err)
 {
     const struct irb_gl_api *api = &energy->gl->api;
     const int height = irradiance->height;

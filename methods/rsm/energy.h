@@ -19,7 +19,7 @@ void rsm_energy_destroy(struct rsm_energy *energy);
 
 /* Share of the irradiance (alpha: what was taken) that the bound took, in [0,1]; 0 where there is
  * none at all. The image is of the height that was given. Waits for the GPU. */
-bool rsm_energy_lost(struct rsm_energy *energy, const struct irb_texture *irradiance,
-                     double *share, struct irb_error *err);
+bool rsm_energy_lost(struct rsm_energy *energy, const struct irb_texture *irradiance, double *share,
+                     struct irb_error *err);
 
 #endif

@@ -87,8 +87,8 @@ void rsm_lowres_destroy(struct rsm_lowres *lowres)
 }
 
 static bool interpolate(struct rsm_lowres *lowres, const struct irb_gbuffer *gbuffer,
-                        const struct rsm_agreement *agreement,
-                        const struct irb_texture *irradiance, struct irb_error *err)
+                        const struct rsm_agreement *agreement, const struct irb_texture *irradiance,
+                        struct irb_error *err)
 {
     const struct irb_gl_api *api = &lowres->gl->api;
     struct irb_program **program = &lowres->interpolate[gbuffer->layout];

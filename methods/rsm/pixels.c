@@ -13,8 +13,8 @@ enum { LIST_BINDING = 1, WORK_BINDING = 2 };
 void rsm_programs_init(struct rsm_programs *programs, struct irb_gl *gl, const char *shader,
                        int software_tile)
 {
-    *programs = (struct rsm_programs){
-        .gl = gl, .shader = shader, .tile = gl->software ? software_tile : 1};
+    *programs =
+        (struct rsm_programs){.gl = gl, .shader = shader, .tile = gl->software ? software_tile : 1};
 }
 
 void rsm_programs_destroy(struct rsm_programs *programs)

@@ -69,9 +69,7 @@ void rsm_pattern_sample(const struct rsm_pattern *pattern, double square_sum, in
     if (pattern->weight == RSM_WEIGHT_XI1)
         out[2] = (float)(2 * M_PI * radius * radius * xi[0] / pattern->samples);
     else
-        out[2] = square_sum > 0
-                     ? (float)(M_PI * radius * radius * xi[0] * xi[0] / square_sum)
-                     : 0;
+        out[2] = square_sum > 0 ? (float)(M_PI * radius * radius * xi[0] * xi[0] / square_sum) : 0;
 }
 
 static bool make_pattern(struct rsm_polar *polar, const struct rsm_pattern *pattern,
@@ -143,13 +141,12 @@ static bool pack(struct rsm_polar *polar, const struct irb_rsm *rsm, struct irb_
 bool rsm_polar_prepare(struct rsm_polar *polar, const struct irb_rsm *rsm,
                        const struct rsm_pattern *pattern, int fetch, struct irb_error *err)
 {
-    return make_pattern(polar, pattern, err) &&
-           (fetch == RSM_FETCH_FULL || pack(polar, rsm, err));
+    return make_pattern(polar, pattern, err) && (fetch == RSM_FETCH_FULL || pack(polar, rsm, err));
 }
 
 static const struct irb_program *bind(struct rsm_polar *polar, const struct rsm_pixels *pixels,
-                                      const struct irb_rsm *rsm,
-                                      const struct rsm_polar_settings *s, struct irb_error *err)
+                                      const struct irb_rsm *rsm, const struct rsm_polar_settings *s,
+                                      struct irb_error *err)
 {
     const bool packed = s->fetch == RSM_FETCH_PACKED;
     const unsigned variant = (s->bound > 0 ? RSM_CLAMPED : 0u) | (packed ? RSM_PACKED : 0u) |

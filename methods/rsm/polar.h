@@ -27,11 +27,11 @@ extern const char *const rsm_fetch_names[]; /* "packed", "full", NULL */
 
 /* All that the pattern depends on. */
 struct rsm_pattern {
-    int samples;     /* N */
-    float radius;    /* r_max as a share of the map's side */
-    int weight;      /* enum rsm_weight */
-    uint32_t first;  /* point of the Halton sequence, its point 0 apart */
-    int resolution;  /* of the RSM */
+    int samples;    /* N */
+    float radius;   /* r_max as a share of the map's side */
+    int weight;     /* enum rsm_weight */
+    uint32_t first; /* point of the Halton sequence, its point 0 apart */
+    int resolution; /* of the RSM */
 };
 
 /* Sample i = 0.. of a pattern: offset in texels, and how many texels it stands for. */

@@ -84,7 +84,7 @@ enum { STAGE_SAMPLE, STAGE_GATHER, STAGE_INTERPOLATE, STAGE_REFINE };
 static const char *const stages[] = {"sample", "gather", "interpolate", "refine", NULL};
 
 struct rsm_state {
-    struct irb_gl *gl; /* borrowed */
+    struct irb_gl *gl;              /* borrowed */
     struct irb_texture *irradiance; /* RGBA32F, W/m2; alpha: mean irradiance that the clamp took */
     struct rsm_programs gather;
     struct rsm_polar *polar;
@@ -164,7 +164,8 @@ static unsigned first_point(uint64_t seed, int samples)
     return (unsigned)((seed * (uint64_t)samples) & ((1u << 30) - 1));
 }
 
-/* Lengths relative to the scene, in metres. The bounds are those at rest: the same in all frames. */
+/* Lengths relative to the scene, in metres. The bounds are those at rest: the same in all frames.
+ */
 struct lengths {
     float bound;         /* of cos cos/r^2, 1/m2; 0 for no clamp */
     float normal_offset; /* m */
@@ -324,8 +325,8 @@ static bool rsm_render_frame(void *user, const struct irb_frame_inputs *in,
     irb_timer_end(in->timer);
     if (!ok)
         return false;
-    ok = scale > 1 ? gather_lowres(state, in, &lengths, err)
-                   : gather_full(state, in, &lengths, err);
+    ok =
+        scale > 1 ? gather_lowres(state, in, &lengths, err) : gather_full(state, in, &lengths, err);
     return ok && report(state, p, lengths.bound, scale > 1, out, err);
 }
 

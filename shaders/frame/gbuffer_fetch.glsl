@@ -3,10 +3,10 @@
  * The camera's G-buffer in either layout: GBUFFER_SLIM is 0 or 1 (irb_gbuffer_define()); the
  * uniforms are set by irb_gbuffer_bind(). Pixels without geometry have normal 0 and coverage 0.
  */
-#if GBUFFER_SLIM
 #include "frame/slim.glsl"
 #include "frame/spheremap.glsl"
 
+#if GBUFFER_SLIM
 uniform sampler2D gbuffer_diffuse;
 uniform sampler2D gbuffer_specular;
 uniform sampler2D gbuffer_normal;

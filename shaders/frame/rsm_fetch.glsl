@@ -6,6 +6,9 @@
  * The light's frame is right, up and the direction that light travels; a texel's ray meets the
  * plane at distance 1 (spot) or any plane (directional) at rsm_image_point().
  */
+#include "frame/slim.glsl"
+#include "frame/spheremap.glsl"
+
 uniform vec3 rsm_light_position;
 uniform vec3 rsm_light_right, rsm_light_up, rsm_light_direction;
 uniform float rsm_half_extent; /* of the image: tan of the half angle, or metres */
@@ -39,9 +42,6 @@ vec3 rsm_vector_to_light_frame(vec3 v)
 }
 
 #if RSM_SLIM
-#include "frame/slim.glsl"
-#include "frame/spheremap.glsl"
-
 uniform sampler2D rsm_depth;  /* reversed: 0 where there is nothing */
 uniform vec3 rsm_flux_scale;  /* W */
 uniform vec2 rsm_depth_range; /* spot: (z at depth 1, 0); directional: (0, z at depth 0), m */

@@ -188,9 +188,8 @@ static double time_method(struct bench *b, int mode)
                                             .light = &b->light,
                                             .camera = &b->camera,
                                             .gbuffer = b->gbuffer,
-                                            .rsm = strcmp(modes[mode].mode, "polar")
-                                                       ? b->rsm
-                                                       : b->polar_rsm,
+                                            .rsm = strcmp(modes[mode].mode, "polar") ? b->rsm
+                                                                                     : b->polar_rsm,
                                             .params = b->params[mode],
                                             .timer = b->timer};
     must(rsm->render_frame(b->state[mode], &inputs, &out, &err), &err);

@@ -10,9 +10,9 @@
 extern const struct irb_method irb_method_rsm;
 static const struct irb_method *const rsm = &irb_method_rsm;
 
-enum { LAYERS = 10, MODES = 3, WIDTH = 61, HEIGHT = 35, RESOLUTION = 48 };
+enum { LAYERS = 11, MODES = 4, WIDTH = 61, HEIGHT = 35, RESOLUTION = 48 };
 
-/* All layers of one frame on one backend; mode i's irradiance is the i-th but three. */
+/* All layers of one frame on one backend; the last MODES are rsm's irradiance. */
 static void render(enum irb_backend backend, struct irb_image layers[LAYERS])
 {
     struct irb_error err = {0};
@@ -38,7 +38,7 @@ static void render(enum irb_backend backend, struct irb_image layers[LAYERS])
     void *state = rsm->create(gl, f.scene_gl, WIDTH, HEIGHT, params, &err);
     REQUIRE_OK(state);
     for (int mode = 0; mode < MODES; mode++) {
-        static const char *const names[MODES] = {"all", "uniform", "importance"};
+        static const char *const names[MODES] = {"all", "uniform", "importance", "polar"};
         struct irb_frame_output out;
         const struct irb_frame_inputs inputs = {.scene = f.scene_gl,
                                                 .light = &f.light,
