@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/base/log.h"
 #include "core/base/clock.h"
+#include "core/base/str.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -9,6 +10,7 @@
 
 static const double bar_interval_s = 0.1;
 static const double line_interval_s = 5.0;
+static const double json_interval_s = 0.5;
 
 struct irb_log irb_log_default(void)
 {
@@ -22,20 +24,86 @@ struct irb_log irb_log_default(void)
     };
 }
 
+/* Writes a finished object as one line, and at once: somebody waits for it. */
+static void write_json(struct irb_log *log, struct irb_str *object)
+{
+    irb_str_printf(object, "}\n");
+    fwrite(irb_str_text(object), 1, object->length, log->out);
+    fflush(log->out);
+    irb_str_free(object);
+}
+
+static struct irb_str begin_json(const char *event)
+{
+    struct irb_str object = {0};
+    irb_str_printf(&object, "{\"event\": \"%s\"", event);
+    return object;
+}
+
+static void json_message(struct irb_log *log, const char *event, const char *code,
+                         const char *message)
+{
+    struct irb_str object = begin_json(event);
+    if (code)
+        irb_str_printf(&object, ", \"code\": \"%s\"", code);
+    irb_str_printf(&object, ", \"message\": ");
+    irb_str_json_string(&object, message);
+    write_json(log, &object);
+}
+
+static void json_progress(struct irb_log *log, const char *what, double fraction, double left_s)
+{
+    struct irb_str object = begin_json("progress");
+    irb_str_printf(&object, ", \"what\": ");
+    irb_str_json_string(&object, what);
+    irb_str_printf(&object, ", \"fraction\": %.4f, \"left_s\": ", fraction);
+    irb_str_json_number(&object, round(10 * left_s) / 10); /* tenths say enough */
+    write_json(log, &object);
+}
+
+void irb_log_error(struct irb_log *log, const struct irb_error *err)
+{
+    if (!log)
+        return;
+    if (log->json)
+        json_message(log, "error", irb_error_name(err->code), err->message);
+    else
+        irb_log_write(log, IRB_LOG_ERROR, "%s", err->message);
+}
+
+void irb_log_done(struct irb_log *log, const char *run)
+{
+    if (log && log->json) {
+        struct irb_str object = begin_json("done");
+        irb_str_printf(&object, ", \"run\": ");
+        irb_str_json_string(&object, run);
+        write_json(log, &object);
+    } else if (run) {
+        irb_log_write(log, IRB_LOG_INFO, "results: %s", run);
+    }
+}
+
 void irb_log_write(struct irb_log *log, enum irb_log_level level, const char *format, ...)
 {
+    static const char *const events[] = {"error", "warning", "info", "debug"};
     static const char *const prefix[] = {"error: ", "warning: ", "", ""};
     static const char *const tint[] = {"\033[31m", "\033[33m", "", "\033[2m"};
     if (!log || level > log->level)
         return;
+    char message[2048];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    if (log->json) {
+        json_message(log, events[level], NULL, message);
+        return;
+    }
     irb_log_progress_done(log);
     if (log->colour)
         fputs(tint[level], log->out);
     fputs(prefix[level], log->out);
-    va_list args;
-    va_start(args, format);
-    vfprintf(log->out, format, args);
-    va_end(args);
+    fputs(message, log->out);
     fputs(log->colour ? "\033[0m\n" : "\n", log->out);
 }
 
@@ -44,9 +112,18 @@ void irb_log_progress(struct irb_log *log, const char *what, double fraction, do
     if (!log || log->level < IRB_LOG_INFO)
         return;
     double now = irb_clock_s();
-    if (now - log->last_progress_s < (log->progress_bar ? bar_interval_s : line_interval_s))
+    double interval = log->json           ? json_interval_s
+                      : log->progress_bar ? bar_interval_s
+                                          : line_interval_s;
+    bool complete = log->json && fraction >= 1;
+    if (!complete && now - log->last_progress_s < interval)
         return;
     log->last_progress_s = now;
+    if (log->json) {
+        json_progress(log, what, fraction,
+                      fraction > 0 ? elapsed_s * (1 - fraction) / fraction : NAN);
+        return;
+    }
     char left[32] = "";
     if (fraction > 0.01) {
         long s = lround(elapsed_s * (1 - fraction) / fraction);

@@ -2,9 +2,18 @@
  *
  * Messages to a person, on stderr. Results go to stdout and never through here.
  * A NULL `struct irb_log *` is silent, so that library code and tests need no special case.
+ *
+ * With `json` every message is one line, a JSON object, for programs that watch a run:
+ *
+ *     {"event": "progress", "what": "render", "fraction": 0.3700, "left_s": 12}
+ *     {"event": "info", "message": "..."}             also "warning" and "debug"
+ *     {"event": "error", "code": "INPUT", "message": "..."}
+ *     {"event": "done", "run": "results/runs/..."}    the last line of what went well
  */
 #ifndef IRB_BASE_LOG_H
 #define IRB_BASE_LOG_H
+
+#include "core/base/error.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -15,6 +24,7 @@ struct irb_log {
     FILE *out;                /* borrowed, usually stderr */
     enum irb_log_level level; /* messages above this are dropped */
     bool colour;              /* off under NO_COLOR or when `out` is no terminal */
+    bool json;                /* lines for programs, see above */
     bool progress_bar;        /* `out` is a terminal: progress is redrawn in place */
     bool bar_shown;           /* a progress line is on the screen and has to be cleared first */
     double last_progress_s;   /* monotonic time of the last progress line */
@@ -30,8 +40,14 @@ void irb_log_write(struct irb_log *log, enum irb_log_level level, const char *fo
 #define irb_info(log, ...) irb_log_write(log, IRB_LOG_INFO, __VA_ARGS__)
 #define irb_debug(log, ...) irb_log_write(log, IRB_LOG_DEBUG, __VA_ARGS__)
 
+/* The error that ends a program, whatever the level. */
+void irb_log_error(struct irb_log *log, const struct irb_error *err);
+
+/* Says where the results are, `run`; which is NULL for what leaves none. */
+void irb_log_done(struct irb_log *log, const char *run);
+
 /* Shows "what 37 % 0:12 left"; in place on a terminal (at most 10 a second), else a plain line at
- * most every 5 seconds. fraction in [0,1]; elapsed_s since the work began, for the time left. */
+ * most every 5 seconds, as JSON every half second and when it is complete. fraction in [0,1]; elapsed_s since the work began, for the time left. */
 void irb_log_progress(struct irb_log *log, const char *what, double fraction, double elapsed_s);
 
 /* Clears the bar, if one is shown. */

@@ -40,6 +40,8 @@ struct irb_cli {
     int threads;             /* --threads, 0 = all cores */
     unsigned stages;         /* --stage, all by default */
     bool keep_all, key;
+    bool per_seed;           /* --per-seed */
+    char *run_dir;           /* owned: where a command has left results, else NULL */
     char *command_line;      /* owned: as it was given, for provenance */
     struct irb_log log;
     struct irb_registry registry;

@@ -30,7 +30,10 @@ static bool print_table(const struct irb_cli *cli, const char *run_dir, struct i
         return false;
     const char *no_color = getenv("NO_COLOR");
     struct irb_table_options options = {
-        .format = format, .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color)};
+        .format = format,
+        .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color),
+        .per_seed = cli->per_seed,
+    };
     bool ok = irb_table_write(stdout, store, &options, err);
     irb_store_close(store);
     return ok;
@@ -58,16 +61,14 @@ bool irb_command_run(struct irb_cli *cli, struct irb_error *err)
     struct irb_config config = {0};
     struct irb_run_options options = run_options(cli);
     enum irb_table_format format;
-    char *run_dir = NULL;
     if (!table_format(cli, &format, err) ||
         !irb_config_load(&config, cli->arguments[0], cli->overrides, &cli->registry, err))
         return false;
-    bool ok = irb_run_experiment(&config, &options, &run_dir, err);
+    bool ok = irb_run_experiment(&config, &options, &cli->run_dir, err);
     if (ok && (cli->stages & IRB_STAGE_SCORE))
-        ok = print_table(cli, run_dir, err);
-    if (run_dir)
-        irb_info(&cli->log, "results: %s", run_dir);
-    free(run_dir);
+        ok = print_table(cli, cli->run_dir, err);
+    if (!ok && cli->run_dir)
+        irb_info(&cli->log, "results so far: %s", cli->run_dir);
     irb_config_destroy(&config);
     return ok;
 }

@@ -17,7 +17,8 @@ const struct irb_command irb_commands[] = {
     {"table", "RUN", 1, 1, "print the results of a run folder",
      "\nReads the run's database, also while a run writes it.\n\n"
      "  irbench table results/runs/quick-1a2b3c4d\n"
-     "  irbench table results/runs/quick-1a2b3c4d --format json\n",
+     "  irbench table results/runs/quick-1a2b3c4d --format json\n"
+     "  irbench table results/runs/seeds-1a2b3c4d --format latex --per-seed\n",
      irb_command_table},
     {"reference", "CONFIG", 1, 1, "trace the references of an experiment into the cache",
      "\nThe cache is $IRBENCH_CACHE, else ~/.cache/irbench. Resumable.\n\n"
@@ -67,6 +68,9 @@ int main(int argc, char **argv)
     const struct irb_command *command = NULL;
     signal(SIGINT, request_stop);
     signal(SIGTERM, request_stop);
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN); /* a file size limit is a write error like a full disk */
+#endif
     irb_registry_init(&cli.registry);
     bool ok = irb_cli_parse(&cli, argc, argv, &command, &err);
     if (ok && command)
@@ -75,7 +79,9 @@ int main(int argc, char **argv)
         ok = irb_fail(&err, IRB_E_IO, "standard output: cannot write");
     irb_log_progress_done(&cli.log);
     if (!ok)
-        irb_log_write(&cli.log, IRB_LOG_ERROR, "%s", err.message);
+        irb_log_error(&cli.log, &err);
+    else if (command)
+        irb_log_done(&cli.log, cli.run_dir);
     int status = ok ? 0 : irb_error_status(err.code);
     irb_cli_close(&cli);
     return status;

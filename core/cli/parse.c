@@ -165,12 +165,26 @@ static bool set_quiet(struct irb_cli *cli, const char *value, struct irb_error *
     return true;
 }
 
+static bool set_per_seed(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value, (void)err;
+    cli->per_seed = true;
+    return true;
+}
+
+static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value, (void)err;
+    cli->log.json = true;
+    return true;
+}
+
 static const struct cli_option options[] = {
     {"--out", "-o", "DIR", "run folder (default results/runs/NAME-KEY); folder of compare's maps",
      set_out},
     {"--set", NULL, "KEY=VALUE", "override a config value: frames=4, reference.noise=0.02",
      set_override},
-    {"--seed", NULL, "N", "override the config's seed", set_seed},
+    {"--seed", NULL, "N", "run with this seed instead of the config's", set_seed},
     {"--only", NULL, "TRIAL", "run only this trial (may be repeated)", set_only},
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
     {"--keep", NULL, "WHICH", "images to keep: some (first, middle, worst, last) or all", set_keep},
@@ -178,12 +192,15 @@ static const struct cli_option options[] = {
     {"--shader-dir", NULL, "DIR", "read shaders from here instead of the binary", set_shader_dir},
     {"--module", NULL, "FILE.so", "load a method from a shared object", set_module},
     {"--threads", NULL, "N", "threads of reference and scoring (default: all cores)", set_threads},
-    {"--format", NULL, "FORMAT", "of tables: text (default), csv, md or json", set_format},
+    {"--format", NULL, "FORMAT", "of tables: text (default), csv, md, json or latex", set_format},
+    {"--per-seed", NULL, NULL, "tables: a row for each seed instead of means over the seeds",
+     set_per_seed},
     {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},
     {"--key", NULL, NULL, "reference: print the cache key of every frame and stop", set_key},
     {"--verbose", "-v", NULL, "say more", set_verbose},
+    {"--json", NULL, NULL, "progress and messages on stderr as JSON lines, for programs", set_json},
     {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},
 };
 enum { OPTION_COUNT = sizeof options / sizeof *options };
@@ -296,6 +313,10 @@ bool irb_cli_parse(struct irb_cli *cli, int argc, char **argv, const struct irb_
     bool help = false;
     *command = NULL;
     cli->command_line = join_command_line(argc, argv);
+    /* first of all, so that what is wrong with the rest is said in JSON too */
+    for (int i = 1; i < argc; i++)
+        if (!strcmp(argv[i], "--json"))
+            cli->log.json = true;
     for (int i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--version")) {
             print_version();
@@ -328,6 +349,7 @@ bool irb_cli_parse(struct irb_cli *cli, int argc, char **argv, const struct irb_
 void irb_cli_close(struct irb_cli *cli)
 {
     free(cli->seed);
+    free(cli->run_dir);
     free(cli->command_line);
     irb_registry_close(&cli->registry);
 }

@@ -83,9 +83,9 @@ bool irb_config_read_seeds(struct irb_config *config, struct irb_yaml *yaml, irb
         return count && (set_count(config, count, err) || irb_yaml_prefix(yaml, node, err));
     }
     if (!irb_yaml_count(node))
-        return irb_yaml_fail(yaml, node, err, "seeds: expected a number or a list of seeds, found %s",
-                             node->type == YAML_SEQUENCE_NODE ? "an empty list"
-                                                              : irb_yaml_kind(node));
+        return irb_yaml_fail(
+            yaml, node, err, "seeds: expected a number or a list of seeds, found %s",
+            node->type == YAML_SEQUENCE_NODE ? "an empty list" : irb_yaml_kind(node));
     config->seed_count = 0;
     for (int i = 0; i < irb_yaml_count(node); i++) {
         irb_yaml_node item = irb_yaml_item(yaml, node, i);

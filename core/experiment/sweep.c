@@ -181,10 +181,9 @@ static bool emit(struct sweep *s, struct irb_error *err)
 static bool emit_matrix(struct sweep *s, irb_yaml_node list, struct irb_error *err)
 {
     if (!irb_yaml_count(list))
-        return irb_yaml_fail(s->yaml, list, err, "%s.matrix: expected a list of maps, found %s",
-                             s->method->name,
-                             list->type == YAML_SEQUENCE_NODE ? "an empty one"
-                                                              : irb_yaml_kind(list));
+        return irb_yaml_fail(
+            s->yaml, list, err, "%s.matrix: expected a list of maps, found %s", s->method->name,
+            list->type == YAML_SEQUENCE_NODE ? "an empty one" : irb_yaml_kind(list));
     if (!check_values(s, err))
         return false;
     for (int i = 0; i < irb_yaml_count(list); i++) {

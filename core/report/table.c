@@ -5,6 +5,7 @@
 #include "core/report/table.h"
 #include "core/base/str.h"
 #include "core/report/table_data.h"
+#include "core/report/table_latex.h"
 #include "core/report/table_text.h"
 
 #include <errno.h>
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const irb_table_format_names[] = {"text", "csv", "md", "json", NULL};
+const char *const irb_table_format_names[] = {"text", "csv", "md", "json", "latex", NULL};
 
 bool irb_table_format_parse(const char *text, enum irb_table_format *format, struct irb_error *err)
 {
@@ -22,8 +23,8 @@ bool irb_table_format_parse(const char *text, enum irb_table_format *format, str
             return true;
         }
     }
-    return irb_fail(err, IRB_E_USAGE, "format: expected text, csv, md or json, found '%.64s'",
-                    text);
+    return irb_fail(err, IRB_E_USAGE,
+                    "format: expected text, csv, md, json or latex, found '%.64s'", text);
 }
 
 /* ---- json ---- */
@@ -39,6 +40,9 @@ static void json_row(const struct irb_table_data *data, const struct irb_table_r
     irb_str_printf(out, ", \"trial\": ");
     irb_str_json_string(out, trial->trial);
     irb_str_printf(out, ", \"params\": %s", *trial->params_json ? trial->params_json : "{}");
+    irb_str_printf(out, ", \"seed\": ");
+    irb_str_json_number(out, row->seeds > 1 ? NAN : trial->seed);
+    irb_str_printf(out, ", \"seeds\": %d", row->seeds);
     for (int i = 0; i < IRB_METRIC_COUNT; i++) {
         irb_str_printf(out, ", \"%s\": ", irb_metrics[i].name);
         irb_str_json_number(out, row->metrics[i]);
@@ -56,6 +60,10 @@ static void json_row(const struct irb_table_data *data, const struct irb_table_r
         irb_str_printf(out, ": ");
         irb_str_json_number(out, row->stage_ms[i]);
         free(key);
+    }
+    for (int i = 0; data->has_spread && i < IRB_METRIC_COUNT; i++) {
+        irb_str_printf(out, ", \"%s_sd\": ", irb_metrics[i].name);
+        irb_str_json_number(out, row->spread[i]);
     }
     irb_str_printf(out, "}");
 }
@@ -111,9 +119,9 @@ static char *csv_params(const char *json)
     return text.text;
 }
 
-static void write_csv(const struct irb_table_data *data, struct irb_str *out)
+static void csv_header(const struct irb_table_data *data, struct irb_str *out)
 {
-    irb_str_printf(out, "scene,method,trial,params");
+    irb_str_printf(out, "scene,method,trial,params,seed,seeds");
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         irb_str_printf(out, ",%s", irb_metrics[i].name);
     for (int i = 0; i < data->region_metric_count; i++)
@@ -124,32 +132,46 @@ static void write_csv(const struct irb_table_data *data, struct irb_str *out)
         csv_text(out, name);
         free(name);
     }
+    for (int i = 0; data->has_spread && i < IRB_METRIC_COUNT; i++)
+        irb_str_printf(out, ",%s_sd", irb_metrics[i].name);
     irb_str_printf(out, "\n");
-    for (int i = 0; i < data->row_count; i++) {
-        const struct irb_table_row *row = &data->rows[i];
-        char *params = csv_params(row->trial->params_json);
-        const char *const texts[] = {row->trial->scene, row->trial->method, row->trial->trial,
-                                     params};
-        for (int c = 0; c < 4; c++) {
-            irb_str_printf(out, "%s", c ? "," : "");
-            csv_text(out, texts[c]);
-        }
-        free(params);
-        for (int m = 0; m < IRB_METRIC_COUNT; m++)
-            csv_number(out, row->metrics[m]);
-        for (int r = 0; r < data->region_metric_count; r++)
-            csv_number(out, row->regions[r]);
-        for (int s = 0; s < data->stage_count; s++)
-            csv_number(out, row->stage_ms[s]);
-        irb_str_printf(out, "\n");
+}
+
+static void csv_row(const struct irb_table_data *data, const struct irb_table_row *row,
+                    struct irb_str *out)
+{
+    char *params = csv_params(row->trial->params_json);
+    const char *const texts[] = {row->trial->scene, row->trial->method, row->trial->trial, params};
+    for (int c = 0; c < 4; c++) {
+        irb_str_printf(out, "%s", c ? "," : "");
+        csv_text(out, texts[c]);
     }
+    free(params);
+    csv_number(out, row->seeds > 1 ? NAN : row->trial->seed);
+    csv_number(out, row->seeds);
+    for (int m = 0; m < IRB_METRIC_COUNT; m++)
+        csv_number(out, row->metrics[m]);
+    for (int r = 0; r < data->region_metric_count; r++)
+        csv_number(out, row->regions[r]);
+    for (int s = 0; s < data->stage_count; s++)
+        csv_number(out, row->stage_ms[s]);
+    for (int m = 0; data->has_spread && m < IRB_METRIC_COUNT; m++)
+        csv_number(out, row->spread[m]);
+    irb_str_printf(out, "\n");
+}
+
+static void write_csv(const struct irb_table_data *data, struct irb_str *out)
+{
+    csv_header(data, out);
+    for (int i = 0; i < data->row_count; i++)
+        csv_row(data, &data->rows[i], out);
 }
 
 bool irb_table_write(FILE *out, struct irb_store *store, const struct irb_table_options *options,
                      struct irb_error *err)
 {
     struct irb_table_data data;
-    if (!irb_table_data_read(&data, store, err))
+    if (!irb_table_data_read(&data, store, options->per_seed, err))
         return false;
     struct irb_str text = {0};
     switch (options->format) {
@@ -164,6 +186,9 @@ bool irb_table_write(FILE *out, struct irb_store *store, const struct irb_table_
         break;
     case IRB_TABLE_JSON:
         write_json(&data, &text);
+        break;
+    case IRB_TABLE_LATEX:
+        irb_table_latex(&data, &text);
         break;
     }
     irb_table_data_destroy(&data);

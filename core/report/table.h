@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * The results of a run as a table, one row for each trial of each scene.
+ * The results of a run as a table, one row for each trial of each scene. Trials with several seeds
+ * have one row of their means, or one row a seed.
  *
- * csv and json hold everything: scene, method, trial, params, then one column for each metric of
- * core/score/metric_list.h, METRIC@REGION for each region that any scene has, then
- * stage_<name>_ms for each stage that any trial has. text and md show the metrics
- * that matter most, grouped by scene, with the best value of each column marked.
+ * csv and json hold everything: scene, method, trial, params, seed (none for a mean), seeds (how
+ * many the mean is of), then one column for each metric of core/score/metric_list.h,
+ * METRIC@REGION for each region that any scene has, stage_<name>_ms for each stage that any trial
+ * has, and METRIC_sd, the standard deviation over the seeds, where any row is a mean. text, md and
+ * latex (for the package booktabs) show the metrics that matter most, grouped by scene, with the
+ * best value of each column marked.
  *
  * Errors are those of the sequence; times are over the frames >= 0. A value that is not there is
  * null (json), empty (csv) or "-".
@@ -17,12 +20,19 @@
 
 #include <stdio.h>
 
-enum irb_table_format { IRB_TABLE_TEXT, IRB_TABLE_CSV, IRB_TABLE_MD, IRB_TABLE_JSON };
-extern const char *const irb_table_format_names[]; /* "text", "csv", "md", "json", NULL */
+enum irb_table_format {
+    IRB_TABLE_TEXT,
+    IRB_TABLE_CSV,
+    IRB_TABLE_MD,
+    IRB_TABLE_JSON,
+    IRB_TABLE_LATEX
+};
+extern const char *const irb_table_format_names[]; /* "text", "csv", "md", "json", "latex", NULL */
 
 struct irb_table_options {
     enum irb_table_format format;
-    bool colour; /* text: the best values in bold type */
+    bool colour;   /* text: the best values in bold type */
+    bool per_seed; /* a row for each seed, no means */
 };
 
 /* IRB_E_USAGE names the formats there are. */

@@ -168,8 +168,10 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
 {
     struct timing timing = {.data = data};
     struct scored_row scored = {data, row};
+    row->name = irb_strdup(row->trial->trial);
+    row->seeds = 1;
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
-        row->metrics[i] = NAN;
+        row->metrics[i] = row->spread[i] = NAN;
     bool ok = irb_store_read_scores(store, row->trial->id, read_score, &scored, err) &&
               irb_store_read_stages(store, row->trial->id, read_stage, &timing, err);
     struct irb_summary frames = irb_summarise(timing.frames.values, timing.frames.count);
@@ -219,7 +221,23 @@ static void order_rows(struct irb_table_data *data)
     }
 }
 
-bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store,
+/* Says the seed where the table has the trial with another one too. */
+static void name_seeds(struct irb_table_data *data)
+{
+    for (int i = 0; i < data->row_count; i++) {
+        const struct irb_store_trial_row *trial = data->rows[i].trial;
+        bool several = false;
+        for (int j = 0; j < data->row_count; j++)
+            several = several || (j != i && !strcmp(data->rows[j].trial->scene, trial->scene) &&
+                                  !strcmp(data->rows[j].trial->trial, trial->trial));
+        if (!several)
+            continue;
+        free(data->rows[i].name);
+        data->rows[i].name = irb_asprintf("%s seed %d", trial->trial, trial->seed);
+    }
+}
+
+bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, bool per_seed,
                          struct irb_error *err)
 {
     *data = (struct irb_table_data){0};
@@ -237,17 +255,26 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store,
         return false;
     }
     pad_rows(data);
+    if (per_seed)
+        name_seeds(data);
+    else
+        irb_table_data_merge_seeds(data);
     data->provenance = read_provenance(data, store);
     return true;
 }
 
+void irb_table_row_free(struct irb_table_row *row)
+{
+    free(row->name);
+    free(row->stage_ms);
+    free(row->regions);
+    free(row->choices);
+}
+
 void irb_table_data_destroy(struct irb_table_data *data)
 {
-    for (int i = 0; i < data->row_count; i++) {
-        free(data->rows[i].stage_ms);
-        free(data->rows[i].regions);
-        free(data->rows[i].choices);
-    }
+    for (int i = 0; i < data->row_count; i++)
+        irb_table_row_free(&data->rows[i]);
     free(data->provenance);
     for (int i = 0; i < data->stage_count; i++)
         free(data->stages[i]);

@@ -18,7 +18,7 @@ expect 2 "--threads" "$IRBENCH" run x.yaml --threads zero
 expect 2 "--out: expected DIR, found nothing" "$IRBENCH" run x.yaml --out
 expect 2 "is no method, scene, metric or config" "$IRBENCH" show nonsense
 expect 2 "list: expected methods" "$IRBENCH" list colours
-expect 2 "format: expected text, csv, md or json, found 'html'" "$IRBENCH" table "$work" --format html
+expect 2 "format: expected text, csv, md, json or latex, found 'html'" "$IRBENCH" table "$work" --format html
 
 # --- config ---
 expect 3 "missing.yaml: cannot open" "$IRBENCH" run "$work/missing.yaml"

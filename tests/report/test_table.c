@@ -38,7 +38,7 @@ static char *write_table(struct irb_store *store, enum irb_table_format format, 
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    REQUIRE_OK(irb_table_write(out, store, &(struct irb_table_options){format, colour}, &err));
+    REQUIRE_OK(irb_table_write(out, store, &(struct irb_table_options){.format = format, .colour = colour}, &err));
     fclose(out);
     return text;
 }
@@ -54,7 +54,7 @@ static void test_formats(void **state)
     assert_int_equal(format, IRB_TABLE_TEXT);
     assert_false(irb_table_format_parse("xml", &format, &err));
     assert_int_equal(err.code, IRB_E_USAGE);
-    assert_string_equal(err.message, "format: expected text, csv, md or json, found 'xml'");
+    assert_string_equal(err.message, "format: expected text, csv, md, json or latex, found 'xml'");
 }
 
 /* The reader itself, on texts whose answer the RFC gives. */
@@ -104,6 +104,8 @@ static void test_json(void **state)
     expect_member(rows[2], "trial", "\"plain\"");
     expect_member(rows[3], "scene", "\"a,\\\"b\\\"\"");
 
+    expect_member(rows[0], "seed", "1");
+    expect_member(rows[0], "seeds", "1");
     expect_member(rows[0], "indirect_relmse", "0.04");
     expect_member(rows[0], "indirect_bias", "-0.01");
     expect_member(rows[0], "claim_rmse", no_value);
@@ -129,6 +131,7 @@ static void test_json(void **state)
         for (int i = 0; i < IRB_METRIC_COUNT; i++)
             assert_true(json_member(rows[row], irb_metrics[i].name, fifth, sizeof fifth));
         assert_false(json_member(rows[row], "a_metric_of_tomorrow", fifth, sizeof fifth));
+        assert_false(json_member(rows[row], "indirect_relmse_sd", fifth, sizeof fifth));
     }
     free(text);
 }
@@ -180,7 +183,7 @@ static void expect_cell(const char *text, int row, const char *column, const cha
 static void test_csv(void **state)
 {
     char *text = write_table(*state, IRB_TABLE_CSV, true);
-    static const char start[] = "scene,method,trial,params,indirect_rmse,";
+    static const char start[] = "scene,method,trial,params,seed,seeds,indirect_rmse,";
     assert_int_equal(strncmp(text, start, sizeof start - 1), 0);
     int lines = 0;
     for (const char *c = text; (c = strchr(c, '\n')); c++)
@@ -276,6 +279,35 @@ static void test_markdown(void **state)
     free(text);
 }
 
+static void test_latex(void **state)
+{
+    char *text = write_table(*state, IRB_TABLE_LATEX, true);
+    assert_null(strchr(text, '\033'));
+    expect_words(text, "  \\caption{cornell. reference: noise 0.00100 (relMSE), flicker floor");
+    expect_words(text, "  \\begin{tabular}{lrrrrrrrrr}\n    \\toprule\n    trial & relMSE & "
+                       "RMSE [W/(m\\textsuperscript{2} sr)] & FLIP");
+    expect_words(text, "    rsm:mode=all & $0.000500^{\\sim}$ & $0.0200^{\\sim}$ & ");
+    expect_words(text, "    plain & $\\mathbf{0.0100}$ & $\\infty$ & --");
+    /* a scene whose name is full of what LaTeX takes for its own */
+    expect_words(text, "\\caption{a,\\textquotedbl{}b\\textquotedbl{}. ");
+    expect_words(text, "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n");
+    expect_words(text, "% times: finish+clock on a device\n");
+    /* rows have as many cells as there are columns, and braces pair */
+    int depth = 0, cells = 0;
+    const char *table = strstr(text, "\\toprule"), *end = strstr(text, "\\bottomrule");
+    for (const char *c = table; c < end; c++) {
+        cells += *c == '&';
+        if (c[0] == '\\' && c[1] == '\\') {
+            assert_int_equal(cells, 9);
+            cells = 0;
+        }
+    }
+    for (const char *c = text; *c; c++)
+        depth += *c == '{' ? 1 : *c == '}' ? -1 : 0;
+    assert_int_equal(depth, 0);
+    free(text);
+}
+
 static void test_no_trials(void **state)
 {
     (void)state;
@@ -284,8 +316,10 @@ static void test_no_trials(void **state)
     snprintf(empty, sizeof empty, "%s/empty", folder);
     struct irb_store *store = irb_store_open(empty, true, &err);
     assert_non_null(store);
-    static const char *const expected[] = {"no trials yet\n", NULL, "no trials yet\n", "[]\n"};
-    for (int format = IRB_TABLE_TEXT; format <= IRB_TABLE_JSON; format++) {
+    static const char *const expected[] = {"no trials yet\n", NULL, "no trials yet\n", "[]\n",
+                                           "% needs \\usepackage{booktabs} and "
+                                           "\\usepackage[T1]{fontenc}\n% no trials yet\n"};
+    for (int format = IRB_TABLE_TEXT; format <= IRB_TABLE_LATEX; format++) {
         char *text = write_table(store, (enum irb_table_format)format, false);
         if (expected[format])
             assert_string_equal(text, expected[format]);
@@ -332,6 +366,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_text),      cmocka_unit_test(test_text_is_aligned),
         cmocka_unit_test(test_colour),    cmocka_unit_test(test_markdown),
         cmocka_unit_test(test_no_trials), cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_latex),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
