@@ -55,6 +55,7 @@ bool irb_command_table(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_reference(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_list(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_show(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_docs(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_compare(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_export_scene(struct irb_cli *cli, struct irb_error *err);
@@ -69,6 +70,14 @@ struct irb_command {
     irb_command_fn run;
 };
 extern const struct irb_command irb_commands[]; /* ended by a NULL name */
+
+struct irb_cli_option {
+    const char *name, *letter; /* "--out", "-o" or NULL */
+    const char *value;         /* name of the value, NULL for a switch */
+    const char *doc;           /* one line */
+    bool (*set)(struct irb_cli *cli, const char *value, struct irb_error *err);
+};
+extern const struct irb_cli_option irb_cli_options[]; /* ended by a NULL name */
 
 /* Parses argv after the program's name. *command is NULL when help or version was printed. */
 bool irb_cli_parse(struct irb_cli *cli, int argc, char **argv, const struct irb_command **command,

@@ -3,6 +3,7 @@
  * The commands that describe: list, show, inspect.
  */
 #include "core/cli/cli.h"
+#include "core/cli/markdown.h"
 #include "core/experiment/config.h"
 #include "core/scene/builtin.h"
 #include "core/score/metric_list.h"
@@ -60,36 +61,21 @@ bool irb_command_list(struct irb_cli *cli, struct irb_error *err)
         lists[i].list(cli);
         found = true;
     }
-    return found || irb_fail(err, IRB_E_USAGE,
-                             "list: expected methods, scenes, metrics or backends; found '%s'",
-                             what);
-}
-
-/* "[1, 65536]", "all|uniform", "true|false" */
-static void print_allowed(const struct irb_option *option)
-{
-    switch (option->type) {
-    case IRB_TYPE_BOOL:
-        printf("true|false");
-        break;
-    case IRB_TYPE_ENUM:
-        for (int i = 0; option->choices[i]; i++)
-            printf("%s%s", i ? "|" : "", option->choices[i]);
-        break;
-    default:
-        printf("[%g, %g]", option->min, option->max);
-    }
+    return found ||
+           irb_fail(err, IRB_E_USAGE,
+                    "list: expected methods, scenes, metrics or backends; found '%s'", what);
 }
 
 static void print_options(const struct irb_option *options, const void *settings)
 {
     for (const struct irb_option *o = options; o->name; o++) {
-        struct irb_str value = {0};
+        struct irb_str value = {0}, allowed = {0};
         irb_option_print(o, settings, &value);
-        printf("  %-16s %-10s ", o->name, irb_str_text(&value));
-        print_allowed(o);
-        printf("%s%s\n  %-16s %s (%s)\n", *o->unit ? " " : "", o->unit, "", o->doc, o->source);
+        irb_option_allowed(o, "|", &allowed);
+        printf("  %-16s %-10s %s\n  %-16s %s (%s)\n", o->name, irb_str_text(&value),
+               irb_str_text(&allowed), "", o->doc, o->source);
         irb_str_free(&value);
+        irb_str_free(&allowed);
     }
 }
 
@@ -111,6 +97,18 @@ static bool show_method(const struct irb_method *method, struct irb_error *err)
     return true;
 }
 
+/* Its name, and every parameter below it. */
+static void show_trial(const struct irb_trial *trial)
+{
+    struct irb_str values = {0};
+    for (const struct irb_option *o = trial->method->params; o->name; o++) {
+        irb_str_printf(&values, " %s=", o->name);
+        irb_option_print(o, trial->params, &values);
+    }
+    printf("  %s\n     %s\n", trial->name, irb_str_text(&values));
+    irb_str_free(&values);
+}
+
 static bool show_config(struct irb_cli *cli, const char *path, struct irb_error *err)
 {
     struct irb_config config = {0};
@@ -129,9 +127,10 @@ static bool show_config(struct irb_cli *cli, const char *path, struct irb_error 
         printf("  %-22s %s, %d light and %d camera keys\n", config.scenes[i].name,
                config.scenes[i].source, config.scenes[i].animation.light_key_count,
                config.scenes[i].animation.camera_key_count);
-    printf("\ntrials:\n");
+    printf("\n%d trial%s with %d seed%s:\n", config.trial_count, config.trial_count == 1 ? "" : "s",
+           config.seed_count, config.seed_count == 1 ? "" : "s");
     for (int i = 0; i < config.trial_count; i++)
-        printf("  %s\n", config.trials[i].name);
+        show_trial(&config.trials[i]);
     irb_config_destroy(&config);
     return true;
 }
@@ -194,9 +193,8 @@ static void print_materials(const struct irb_scene *scene)
     for (int i = 0; i < scene->material_count; i++) {
         const struct irb_material *m = &scene->materials[i];
         printf("  %-24s diffuse %.3f %.3f %.3f  specular %.3f %.3f %.3f  exponent %.3g%s%s\n",
-               m->name, m->diffuse[0], m->diffuse[1], m->diffuse[2], m->specular[0],
-               m->specular[1], m->specular[2], m->exponent,
-               m->diffuse_texture >= 0 ? "  texture " : "",
+               m->name, m->diffuse[0], m->diffuse[1], m->diffuse[2], m->specular[0], m->specular[1],
+               m->specular[2], m->exponent, m->diffuse_texture >= 0 ? "  texture " : "",
                m->diffuse_texture >= 0 ? scene->textures[m->diffuse_texture].name : "");
     }
 }

@@ -6,51 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct irb_command irb_commands[] = {
-    {"run", "CONFIG", 1, 1, "prepare, render and score an experiment, print its table",
-     "\nWhat was done before (cached references, finished frames of the same run folder) is not\n"
-     "done again; Ctrl-C keeps everything.\n\n"
-     "  irbench run experiments/quick.yaml\n"
-     "  irbench run experiments/quick.yaml --set frames=2 --set reference.noise=0.05 --out /tmp/q\n"
-     "  irbench run experiments/quick.yaml --only rsm:samples=100\n",
-     irb_command_run},
-    {"table", "RUN", 1, 1, "print the results of a run folder",
-     "\nReads the run's database, also while a run writes it.\n\n"
-     "  irbench table results/runs/quick-1a2b3c4d\n"
-     "  irbench table results/runs/quick-1a2b3c4d --format json\n"
-     "  irbench table results/runs/seeds-1a2b3c4d --format latex --per-seed\n",
-     irb_command_table},
-    {"reference", "CONFIG", 1, 1, "trace the references of an experiment into the cache",
-     "\nThe cache is $IRBENCH_CACHE, else ~/.cache/irbench. Resumable.\n\n"
-     "  irbench reference experiments/quick.yaml\n"
-     "  irbench reference experiments/quick.yaml --key\n",
-     irb_command_reference},
-    {"list", "WHAT", 0, 1, "list methods, scenes, metrics or backends",
-     "\n  irbench list methods\n  irbench list metrics\n", irb_command_list},
-    {"show", "NAME", 1, 1, "show a method's parameters, a scene's source or a config as resolved",
-     "\n  irbench show rsm\n  irbench show cornell\n  irbench show experiments/quick.yaml\n",
-     irb_command_show},
-    {"inspect", "SCENE", 1, 1, "say what a scene file or built-in holds",
-     "\n  irbench inspect cornell\n  irbench inspect sibenik.glb\n", irb_command_inspect},
-    {"compare", "IMAGE REFERENCE", 2, 2, "every image metric between two image files",
-     "\nOpenEXR files, or any image that OpenImageIO reads. Two files of a display-referred format\n"
-     "(PNG, JPEG, ...) are compared as they are shown; all others hold radiance, which SSIM and\n"
-     "LDR-FLIP see tone-mapped at an exposure from the reference. --max and --min bound the\n"
-     "metrics by the values printed: the exit status is 1 where one does not hold, or is not\n"
-     "defined. --out DIR writes the maps: maps.exr, and a PNG of each in false colour.\n\n"
-     "  irbench compare image.exr reference.exr\n"
-     "  irbench compare image.exr reference.exr --layer indirect --format json\n"
-     "  irbench compare image.exr reference.exr --max flip=0.05 --min ssim=0.98 --out maps\n",
-     irb_command_compare},
-    {"export-scene", "SCENE FILE.glb", 2, 2, "write a scene with its view for other renderers",
-     "\nGeometry, materials, textures, camera and light of frame 0; units one to one (W/sr).\n\n"
-     "  irbench export-scene hall hall.glb\n",
-     irb_command_export_scene},
-    {"doctor", "", 0, 0, "say what this machine can do, and what to do about what is missing",
-     "\n  irbench doctor\n  irbench doctor --backend egl\n", irb_command_doctor},
-    {NULL, NULL, 0, 0, NULL, NULL, NULL},
-};
-
 /* The one piece of state that a signal handler can reach. */
 static volatile sig_atomic_t stop_requested;
 

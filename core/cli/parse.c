@@ -11,15 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef bool (*option_fn)(struct irb_cli *cli, const char *value, struct irb_error *err);
-
-struct cli_option {
-    const char *name, *letter; /* "--out", "-o" or NULL */
-    const char *value;         /* name of the value, NULL for a switch */
-    const char *doc;
-    option_fn set;
-};
-
 static bool set_out(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)err;
@@ -179,7 +170,7 @@ static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *e
     return true;
 }
 
-static const struct cli_option options[] = {
+const struct irb_cli_option irb_cli_options[] = {
     {"--out", "-o", "DIR", "run folder (default results/runs/NAME-KEY); folder of compare's maps",
      set_out},
     {"--set", NULL, "KEY=VALUE", "override a config value: frames=4, reference.noise=0.02",
@@ -202,8 +193,9 @@ static const struct cli_option options[] = {
     {"--verbose", "-v", NULL, "say more", set_verbose},
     {"--json", NULL, NULL, "progress and messages on stderr as JSON lines, for programs", set_json},
     {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},
+    {NULL, NULL, NULL, NULL, NULL},
 };
-enum { OPTION_COUNT = sizeof options / sizeof *options };
+enum { OPTION_COUNT = sizeof irb_cli_options / sizeof *irb_cli_options - 1 };
 
 static void print_help(const struct irb_command *command)
 {
@@ -223,7 +215,7 @@ static void print_help(const struct irb_command *command)
     }
     printf("\noptions:\n");
     for (int i = 0; i < OPTION_COUNT; i++) {
-        const struct cli_option *o = &options[i];
+        const struct irb_cli_option *o = &irb_cli_options[i];
         char left[64];
         snprintf(left, sizeof left, "%s%s%s%s%s", o->letter ? o->letter : "", o->letter ? ", " : "",
                  o->name, o->value ? " " : "", o->value ? o->value : "");
@@ -268,7 +260,7 @@ static bool apply_option(struct irb_cli *cli, int argc, char **argv, int *index,
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
     const char *names[OPTION_COUNT];
     for (int i = 0; i < OPTION_COUNT; i++) {
-        const struct cli_option *o = &options[i];
+        const struct irb_cli_option *o = &irb_cli_options[i];
         names[i] = o->name;
         bool is_long = strlen(o->name) == length && !strncmp(o->name, word, length);
         if (!is_long && !(o->letter && !strcmp(o->letter, word)))

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The reference of the config file.
+ */
+#include "core/cli/docs.h"
+#include "core/cli/markdown.h"
+#include "core/experiment/config.h"
+#include "core/experiment/config_keys.h"
+
+#include <stdlib.h>
+
+#define KEY(name, value, doc) {name, value, doc},
+#define END                                                                                        \
+    {                                                                                              \
+        NULL, NULL, NULL                                                                           \
+    }
+
+static const struct irb_documented_key top[] = {IRB_CONFIG_TOP_KEYS(KEY) END};
+static const struct irb_documented_key scene[] = {IRB_CONFIG_SCENE_KEYS(KEY) END};
+static const struct irb_documented_key region[] = {IRB_CONFIG_REGION_KEYS(KEY) END};
+static const struct irb_documented_key camera[] = {IRB_CONFIG_CAMERA_SETTINGS(KEY) END};
+static const struct irb_documented_key camera_key[] = {IRB_CONFIG_KEY_TIME(KEY)
+                                                           IRB_CONFIG_CAMERA_KEY(KEY) END};
+static const struct irb_documented_key light[] = {IRB_CONFIG_LIGHT_SETTINGS(KEY) END};
+static const struct irb_documented_key light_key[] = {IRB_CONFIG_KEY_TIME(KEY)
+                                                          IRB_CONFIG_LIGHT_KEY(KEY) END};
+
+const struct irb_documented_section irb_documented_sections[] = {
+    {"At the top", top},
+    {"An item of `scenes`", scene},
+    {"`camera`", camera},
+    {"An item of `camera: keys`", camera_key},
+    {"`light`", light},
+    {"An item of `light: keys`", light_key},
+    {"An item of `regions`", region},
+    {NULL, NULL},
+};
+
+static const char introduction[] =
+    "# Config reference\n"
+    "\n"
+    "Made by `irbench docs config` from the tables that the program reads configs with.\n"
+    "\n"
+    "A config is one YAML file. Every error names file, line and column. Single values can be set\n"
+    "from the command line: `--set frames=4 --set resolution=64x48 --set reference.noise=0.05\n"
+    "--set seeds=1,2,3`. `irbench show CONFIG` prints a config as it is understood, all trials "
+    "and\n"
+    "seeds included.\n"
+    "\n"
+    "    name: example\n"
+    "    seeds: [1, 2, 3]\n"
+    "    resolution: [256, 192]\n"
+    "    frames: 8\n"
+    "    reference: {min_samples: 16, max_samples: 64, noise: 0.02}\n"
+    "    scenes:\n"
+    "      - scene: cornell\n"
+    "        light:\n"
+    "          keys:\n"
+    "            - {frame: 0, position: [0.25, 0.5, 0.12], target: [0.45, 0, 0.1], intensity: 1}\n"
+    "            - {frame: 7, target: [0.55, 0.25, 0.35]}\n"
+    "    trials:\n"
+    "      - rsm:mode=all\n"
+    "      - rsm: {mode: uniform, samples: [100, 400, 1600]}\n"
+    "      - rsm:\n"
+    "          clamp: 10\n"
+    "          matrix:\n"
+    "            - {mode: uniform, samples: 100}\n"
+    "            - {mode: importance, samples: 400}\n"
+    "\n";
+
+static const char of_trials[] =
+    "## `trials`\n"
+    "\n"
+    "A list of methods with their parameters (`irbench docs methods`), as a name\n"
+    "(`rsm:mode=uniform:samples=100`) or as a map. In a map a list where one value may stand gives "
+    "a\n"
+    "trial for each value; several lists give every combination, in the order of the method's\n"
+    "parameter table with the last one changing fastest. `matrix:` lists combinations instead: "
+    "each\n"
+    "of its maps is merged over what stands beside it. A trial that comes out twice is refused, "
+    "and\n"
+    "so are more than 1000 trials, each seed counted.\n"
+    "\n"
+    "## `seed` and `seeds`\n"
+    "\n"
+    "With several seeds every trial is run with each of them; tables show means and the standard\n"
+    "deviation from seed to seed (`--per-seed` gives every seed a row), and files of a trial lie "
+    "in\n"
+    "`RUN/SCENE/TRIAL/seed-N/`. A method without random choices gives the same image for every\n"
+    "seed, with a deviation of 0; its times are then repeated measurements. The reference has a\n"
+    "seed of its own, `reference.seed`.\n"
+    "\n";
+
+static void print_section(FILE *out, const struct irb_documented_section *section)
+{
+    fprintf(out, "## %s\n\n", section->title);
+    irb_markdown_header(out, (const char *const[]){"key", "value", "meaning", NULL});
+    for (const struct irb_documented_key *key = section->keys; key->name; key++) {
+        char *name = irb_asprintf("`%s`", key->name);
+        irb_markdown_row(out, (const char *const[]){name, key->value, key->doc, NULL});
+        free(name);
+    }
+    fprintf(out, "\n");
+}
+
+void irb_docs_config(FILE *out, const struct irb_cli *cli)
+{
+    (void)cli;
+    fputs(introduction, out);
+    print_section(out, &irb_documented_sections[0]);
+    fputs("Single values beside them:\n\n", out);
+    irb_markdown_options(out, irb_render_options, "key");
+    fputs("\n## `reference`\n\n", out);
+    irb_markdown_options(out, irb_reference_options, "key");
+    fputs("\n", out);
+    fputs(of_trials, out);
+    for (const struct irb_documented_section *s = irb_documented_sections + 1; s->title; s++)
+        print_section(out, s);
+}
