@@ -119,10 +119,24 @@ static void keep_camera(struct irb_gbuffer *gbuffer, const struct irb_camera *ca
     gbuffer->z_far = camera->z_far;
 }
 
+/* Turns the projection's depth round, from -1..1 to 1..0: near (far - d)/(d (far - near)) at the
+ * depth d. As a float is finest near 0, its steps are then about 1e-7 d throughout, where those of
+ * the usual depth grow with d^2: at 20 m, with z_near at 5 mm, two surfaces 5 mm apart would be
+ * one, and the G-buffer would hold points that the eye does not see. The slim layout keeps the
+ * depth that it is decoded from (thesis 5.1.1). */
+static void reverse_depth(const struct irb_camera *camera, float projection[16])
+{
+    double near = camera->z_near, far = camera->z_far;
+
+    projection[10] = (float)(near / (far - near));
+    projection[14] = (float)(near * far / (far - near));
+}
+
 static void clear(const struct irb_gbuffer *gbuffer)
 {
     const struct irb_gl_api *api = &gbuffer->gl->api;
-    static const float zero[4] = {0}, farthest = 1;
+    static const float zero[4] = {0};
+    const float farthest = gbuffer->layout == IRB_LAYOUT_SLIM ? 1 : 0;
     const int targets = gbuffer->layout == IRB_LAYOUT_SLIM ? SLIM_TARGETS : TARGETS;
 
     api->Disable(GL_SCISSOR_TEST);
@@ -137,15 +151,20 @@ bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *
                         const struct irb_camera *camera, struct irb_error *err)
 {
     const struct irb_gl_api *api = &gbuffer->gl->api;
+    const bool reversed = gbuffer->layout != IRB_LAYOUT_SLIM;
     float view[16], projection[16], view_projection[16];
 
     irb_camera_matrices(camera, (float)gbuffer->width / (float)gbuffer->height, view, projection);
+    if (reversed)
+        reverse_depth(camera, projection);
     multiply(projection, view, view_projection);
     keep_camera(gbuffer, camera, view, projection);
     irb_framebuffer_bind(gbuffer->framebuffer);
     clear(gbuffer);
+    if (reversed)
+        api->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     api->Enable(GL_DEPTH_TEST);
-    api->DepthFunc(GL_LESS);
+    api->DepthFunc(reversed ? GL_GREATER : GL_LESS);
     irb_program_mat4(gbuffer->program, "view_projection", view_projection);
     irb_program_vec3(gbuffer->program, "camera_position", camera->position);
     irb_program_vec3(gbuffer->program, "view_right", gbuffer->right);
@@ -153,6 +172,8 @@ bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *
     irb_program_vec3(gbuffer->program, "view_back", gbuffer->back);
     irb_scene_gl_draw(scene, gbuffer->program);
     api->Disable(GL_DEPTH_TEST);
+    api->DepthFunc(GL_LESS);
+    api->ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
     return irb_gl_check(gbuffer->gl, "gbuffer: draw", err);
 }
 

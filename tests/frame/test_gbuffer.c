@@ -126,6 +126,45 @@ static void test_plane(void **state)
     check_floor(&camera, 64, 48, 3);
 }
 
+/* Of two walls a part in 100 000 of the scene's size apart, the nearer one is seen everywhere. */
+static void test_depth_precision(void **state)
+{
+    (void)state;
+    struct irb_error err = {0};
+    struct irb_builder builder;
+    irb_builder_begin(&builder, "walls");
+    const float dark[3] = {0, 0, 0}, bright[3] = {1, 1, 1};
+    const int back = irb_builder_material(&builder, "back", dark);
+    const int front = irb_builder_material(&builder, "front", bright);
+    for (int i = 0; i < 2; i++) {
+        const double y = i ? 1e-3 : 0, h = 50;
+        const double corners[4][3] = {{-h, y, h}, {h, y, h}, {h, y, -h}, {-h, y, -h}};
+        irb_builder_object(&builder, i ? "front" : "back", i ? front : back);
+        irb_builder_quad(&builder, corners);
+    }
+    struct irb_scene *scene = irb_builder_finish(&builder, &err);
+    REQUIRE_OK(scene);
+    /* from above, and where the walls reach behind the eye */
+    const struct irb_camera cameras[] = {
+        fixture_camera((float[]){0, 60, 0}, (float[]){0.3f, 0, 0.2f}, (float[]){0, 0, -1}, 70),
+        fixture_camera((float[]){0, 5, 20}, (float[]){0, 0, -20}, (float[]){0, 1, 0}, 70)};
+    for (int view = 0; view < 2; view++) {
+        struct irb_camera camera = cameras[view];
+        camera.z_near = 1e-4f * irb_scene_diagonal(scene); /* what a config without it gets */
+        camera.z_far = 200;
+        struct irb_gbuffer_image g = render(scene, &camera, 64, 48);
+        size_t covered = 0, front_seen = 0;
+        for (size_t i = 0; i < irb_image_pixels(&g.position); i++) {
+            covered += irb_gbuffer_image_covered(&g, i);
+            front_seen += g.diffuse.data[3 * i] == 1;
+        }
+        REQUIRE_CMP(covered, >, 0);
+        REQUIRE_CMP(front_seen, ==, covered);
+        irb_gbuffer_image_destroy(&g);
+    }
+    irb_scene_destroy(scene);
+}
+
 /* The inside of the built-in unit sphere: positions on it, smooth normals to its centre, and the
  * flat ones perpendicular to nothing else than their triangle (chord height of 512 x 256). */
 static void test_sphere(void **state)
@@ -217,9 +256,8 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_transform),
+        cmocka_unit_test(test_plane),           cmocka_unit_test(test_sphere),
+        cmocka_unit_test(test_depth_precision), cmocka_unit_test(test_transform),
         cmocka_unit_test(test_texture),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
