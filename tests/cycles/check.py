@@ -26,7 +26,18 @@ Indirect light must have the same sum within 1 % and may differ by at most 1.5 t
 renderers' noise explains, pixel by pixel and in means over blocks of 8 x 8 (compare.py). Direct
 light has hardly any noise: its sum must be the same within 1 %, and no more than 0.5 % of the pixels
 may differ by more than 1 % (of the mean at least), which those that a shadow's edge runs through
-do. Pixels at silhouettes and creases are left out; how many is printed.
+do. Pixels at silhouettes and creases are left out; how many is printed. There a rasteriser, which
+places vertices in steps of 1/256 pixel, and a ray may see different surfaces.
+
+Measured with Blender 3.4.1 and Embree 3.13 at the defaults (160x120 pixels, 1024 samples a pixel and
+seed; 8 minutes on two busy cores); the noise is that of the mean of both seeds, relative to the
+mean radiance:
+
+            ratio of sums       difference / noise             noise, pixel
+            direct   indirect   pixel           8 x 8          Cycles   reference
+  cornell   1.0004   0.9999     2.50 / 2.51 %   0.30 / 0.32 %   2.2 %    1.2 %
+  doorway   1.0000   0.9985     25.3 / 25.6 %   3.77 / 3.58 %   25  %    5.2 %
+  hall      1.0006   0.9990     4.71 / 4.68 %   0.76 / 0.67 %   3.9 %    2.6 %
 
 Exit status: 0 all agree, 1 some do not, 77 no Blender, 2 anything else.
 """
