@@ -10,30 +10,10 @@
 #include <stdlib.h>
 
 #define KEY(name, value, doc) {name, value, doc},
-#define END                                                                                        \
-    {                                                                                              \
-        NULL, NULL, NULL                                                                           \
-    }
-
-static const struct irb_documented_key top[] = {IRB_CONFIG_TOP_KEYS(KEY) END};
-static const struct irb_documented_key scene[] = {IRB_CONFIG_SCENE_KEYS(KEY) END};
-static const struct irb_documented_key region[] = {IRB_CONFIG_REGION_KEYS(KEY) END};
-static const struct irb_documented_key camera[] = {IRB_CONFIG_CAMERA_SETTINGS(KEY) END};
-static const struct irb_documented_key camera_key[] = {IRB_CONFIG_KEY_TIME(KEY)
-                                                           IRB_CONFIG_CAMERA_KEY(KEY) END};
-static const struct irb_documented_key light[] = {IRB_CONFIG_LIGHT_SETTINGS(KEY) END};
-static const struct irb_documented_key light_key[] = {IRB_CONFIG_KEY_TIME(KEY)
-                                                          IRB_CONFIG_LIGHT_KEY(KEY) END};
+#define SECTION(title, KEYS) {title, (const struct irb_documented_key[]){KEYS(KEY){NULL}}},
 
 const struct irb_documented_section irb_documented_sections[] = {
-    {"At the top", top},
-    {"An item of `scenes`", scene},
-    {"`camera`", camera},
-    {"An item of `camera: keys`", camera_key},
-    {"`light`", light},
-    {"An item of `light: keys`", light_key},
-    {"An item of `regions`", region},
-    {NULL, NULL},
+    IRB_CONFIG_SECTIONS(SECTION){NULL},
 };
 
 static const char introduction[] =

@@ -69,6 +69,19 @@
 #define IRB_CONFIG_KEY_TIME(X)                                                                     \
     X("frame", "number", "time of the key in frames; rises from key to key")
 
+/* Every section in the order of the documentation: S(title, its list). The key of a keyframe is
+ * what stands here with its time before it. */
+#define IRB_CONFIG_CAMERA_KEYFRAME(X) IRB_CONFIG_KEY_TIME(X) IRB_CONFIG_CAMERA_KEY(X)
+#define IRB_CONFIG_LIGHT_KEYFRAME(X) IRB_CONFIG_KEY_TIME(X) IRB_CONFIG_LIGHT_KEY(X)
+#define IRB_CONFIG_SECTIONS(S)                                                                     \
+    S("At the top", IRB_CONFIG_TOP_KEYS)                                                           \
+    S("An item of `scenes`", IRB_CONFIG_SCENE_KEYS)                                                \
+    S("`camera`", IRB_CONFIG_CAMERA_SETTINGS)                                                      \
+    S("An item of `camera: keys`", IRB_CONFIG_CAMERA_KEYFRAME)                                     \
+    S("`light`", IRB_CONFIG_LIGHT_SETTINGS)                                                        \
+    S("An item of `light: keys`", IRB_CONFIG_LIGHT_KEYFRAME)                                       \
+    S("An item of `regions`", IRB_CONFIG_REGION_KEYS)
+
 /* The names alone, for lists of what is allowed. */
 #define IRB_CONFIG_KEY_NAME(name, value, doc) name,
 
