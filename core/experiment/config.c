@@ -128,8 +128,8 @@ static bool read_reference(struct irb_config *config, struct irb_yaml *yaml, irb
 static bool read_settings(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node root,
                           struct irb_error *err)
 {
-    static const char *const elsewhere[] = {"scenes", "scene",   "camera",
-                                            "light",  "regions", "trials"};
+    static const char *const elsewhere[] = {"scenes",  "scene",   "camera",  "light", "animation",
+                                            "objects", "regions", "trials"};
     irb_yaml_node resolution = irb_yaml_find(yaml, root, "resolution");
     for (int i = 0; i < irb_yaml_pairs(root); i++) {
         irb_yaml_node value = irb_yaml_value(yaml, root, i);
@@ -177,8 +177,8 @@ static bool override_one(struct irb_config *config, const char *key, const char 
                          struct irb_error *err)
 {
     static const char reference[] = "reference.";
-    static const char *const fixed[] = {"scenes",  "scene",  "camera",   "light",
-                                        "regions", "trials", "reference"};
+    static const char *const fixed[] = {"scenes",  "scene",   "camera", "light",    "animation",
+                                        "objects", "regions", "trials", "reference"};
     if (!strncmp(key, reference, sizeof reference - 1))
         return irb_option_set(irb_reference_options, &config->reference, key + sizeof reference - 1,
                               value, err) ||
@@ -271,7 +271,12 @@ void irb_config_destroy(struct irb_config *config)
     for (int i = 0; i < config->scene_count; i++) {
         free(config->scenes[i].name);
         free(config->scenes[i].source);
+        free(config->scenes[i].light_name);
+        free(config->scenes[i].light_place);
+        free(config->scenes[i].camera_name);
+        free(config->scenes[i].camera_place);
         irb_animation_destroy(&config->scenes[i].animation);
+        irb_poses_destroy(&config->scenes[i].poses);
         irb_config_destroy_regions(&config->scenes[i]);
     }
     for (int i = 0; i < config->trial_count; i++)
@@ -325,6 +330,11 @@ struct irb_key irb_config_key(const struct irb_config *config)
         irb_hash_string(hash, scene->name);
         irb_hash_string(hash, slash ? slash + 1 : scene->source);
         hash_animation(&scene->animation, hash);
+        if (scene->light_name || scene->camera_name) {
+            irb_hash_string(hash, scene->light_name ? scene->light_name : "");
+            irb_hash_string(hash, scene->camera_name ? scene->camera_name : "");
+        }
+        irb_config_hash_poses(&scene->poses, hash);
         irb_config_hash_regions(scene, hash);
     }
     irb_hash_u64(hash, (uint64_t)config->trial_count);

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "core/reference/reference.h"
 #include "core/scene/animation.h"
+#include "core/scene/pose.h"
 #include "methods/registry.h"
 
 /* Scalar settings at the top of a config and in its sections; declared as options. */
@@ -37,7 +38,11 @@ enum { IRB_MOST_REGIONS = 16 }; /* of a scene */
 struct irb_scene_entry {
     char *name;                     /* key in tables: the built-in's name or the file's stem */
     char *source;                   /* built-in name or path, ${VARIABLES} expanded */
-    struct irb_animation animation; /* from the config, else the built-in's view */
+    struct irb_animation animation; /* from the config, else the built-in's view; no light or
+                                       camera keys where the file's own are taken */
+    char *light_name, *camera_name; /* of the file's own; NULL = its first one */
+    char *light_place, *camera_place; /* "FILE:LINE:COLUMN", for messages */
+    struct irb_poses poses;         /* how objects move */
     struct irb_region *regions;     /* owned */
     int region_count;
 };

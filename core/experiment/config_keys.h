@@ -19,6 +19,8 @@
     X("scene", "text", "instead of scenes, with camera, light and regions beside it: the only one") \
     X("camera", "map", "of the only scene")                                                        \
     X("light", "map", "of the only scene")                                                         \
+    X("animation", "map", "of the only scene")                                                     \
+    X("objects", "list of maps", "of the only scene")                                              \
     X("regions", "list of maps", "of the only scene")                                              \
     X("trials", "list", "methods with their parameters")
 
@@ -28,8 +30,10 @@
       "environment variable")                                                                      \
     X("name", "text", "what tables and folders call it; the built-in's or the file's name by "     \
                       "default")                                                                   \
-    X("camera", "map", "a built-in scene has its own")                                             \
-    X("light", "map", "a built-in scene has its own")                                              \
+    X("camera", "map", "a built-in scene has its own; so may a glTF file")                         \
+    X("light", "map", "a built-in scene has its own; so may a glTF file")                          \
+    X("animation", "map", "plays the glTF file's own animation of its objects")                    \
+    X("objects", "list of maps", "moves objects of the scene")                                     \
     X("regions", "list of maps", "boxes of the image that are scored on their own")
 
 #define IRB_CONFIG_REGION_KEYS(X)                                                                  \
@@ -65,7 +69,31 @@
     X("cone", "degrees, 0 to 90", "half-angle of the cone; 45 by default")                         \
     X("inner", "degrees, 0 to 90", "smooth falloff: half-angle of full intensity; 0 by default")
 
-/* Of both. */
+/* Instead of keys: what the scene's glTF file brings. */
+#define IRB_CONFIG_CAMERA_OF_FILE(X)                                                               \
+    X("name", "text", "camera of the glTF file that is taken, with near and far alone beside it; " \
+                      "its first one by default")
+#define IRB_CONFIG_LIGHT_OF_FILE(X)                                                                \
+    X("name", "text", "light of the glTF file that is taken, with beam_half_width alone beside "   \
+                      "it; its first one by default")
+
+#define IRB_CONFIG_ANIMATION_KEYS(X)                                                               \
+    X("fps", "number, 1/s", "frames a second: frame i shows the animation at start + i/fps; 24 by " \
+                            "default")                                                             \
+    X("start", "number, s", "where frame 0 and the settle frames are; 0 by default")
+
+/* What is said once of an object, and what each of its keys may say. */
+#define IRB_CONFIG_OBJECT_SETTINGS(X)                                                              \
+    X("name", "text", "of the object; all objects of that name move")                              \
+    X("pivot", "[x, y, z], m", "is turned and scaled about; the centre of its bounds by default")  \
+    X("interpolation", "linear|catmull-rom", "between keys; linear by default")                    \
+    X("keys", "list of maps", "keyframes, each relative to the pose at rest")
+#define IRB_CONFIG_OBJECT_KEY(X)                                                                   \
+    X("translate", "[x, y, z], m", "shift; [0, 0, 0] by default")                                  \
+    X("rotate", "[x, y, z, degrees]", "axis and angle, counter-clockwise seen from its tip")       \
+    X("scale", "number or [x, y, z]", "along the world's axes, before it is turned; 1 by default")
+
+/* Of all three. */
 #define IRB_CONFIG_KEY_TIME(X)                                                                     \
     X("frame", "number", "time of the key in frames; rises from key to key")
 

@@ -21,10 +21,15 @@ char *irb_config_stem(const char *path);
 bool irb_config_read_scenes(struct irb_config *config, struct irb_yaml *yaml,
                             struct irb_error *err);
 
-/* `camera:` and `light:` of `scene` (config_script.c). *animation holds a built-in's view, or is
- * empty but for its defaults where the scene is a file. */
-bool irb_config_read_script(struct irb_animation *animation, struct irb_yaml *yaml,
+/* `camera:` and `light:` of `scene` (config_script.c). entry->animation holds a built-in's view, or
+ * is empty but for its defaults where the scene is a file. */
+bool irb_config_read_script(struct irb_scene_entry *entry, struct irb_yaml *yaml,
                             irb_yaml_node scene, bool builtin, struct irb_error *err);
+
+/* `animation:` and `objects:` of `scene` (config_objects.c). */
+bool irb_config_read_poses(struct irb_scene_entry *entry, struct irb_yaml *yaml,
+                           irb_yaml_node scene, bool builtin, struct irb_error *err);
+void irb_config_hash_poses(const struct irb_poses *poses, struct irb_hash *hash);
 
 /* `regions:` of `scene` (config_regions.c). The boxes are checked against the resolution later, once
  * --set has had its say. */

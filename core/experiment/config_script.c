@@ -174,7 +174,8 @@ static bool check_required(const struct section *s, irb_yaml_node node, struct i
     for (int i = 0; s->required[i]; i++)
         if (!irb_yaml_find(s->yaml, node, s->required[i]))
             return irb_yaml_fail(s->yaml, node, err,
-                                 "%s: %s: missing; a scene from a file has none of its own",
+                                 "%s: %s: missing; expected all of it, or the name: of one that the "
+                                 "glTF file brings",
                                  s->name, s->required[i]);
     return true;
 }
@@ -339,24 +340,84 @@ static bool read_light(struct irb_animation *animation, struct irb_yaml *yaml, i
     return true;
 }
 
-static bool missing(struct irb_yaml *yaml, irb_yaml_node scene, const char *section,
-                    struct irb_error *err)
+/* ---- the file's own ---- */
+
+static bool read_file_name(struct irb_yaml *yaml, irb_yaml_node node, const char *const *allowed,
+                           const char *section, char **name, struct irb_error *err)
 {
-    return irb_yaml_fail(yaml, scene, err, "%s: missing; a scene from a file has none of its own",
+    irb_yaml_node text_node = irb_yaml_find(yaml, node, "name");
+    const char *text = text_node ? irb_yaml_text(yaml, text_node, "name", err) : NULL;
+    if (!text || !irb_yaml_check_map(yaml, node, section, allowed, err))
+        return false;
+    *name = irb_strdup(text);
+    return true;
+}
+
+/* Whether the section picks one of the file's, which sets it aside from keyframes. */
+static bool names_one(struct irb_yaml *yaml, irb_yaml_node node)
+{
+    return node && node->type == YAML_MAPPING_NODE && irb_yaml_find(yaml, node, "name");
+}
+
+static bool no_names(struct irb_yaml *yaml, irb_yaml_node node, const char *section,
+                     struct irb_error *err)
+{
+    return irb_yaml_fail(yaml, irb_yaml_find(yaml, node, "name"), err,
+                         "%s: name: expected for a glTF file alone; a built-in scene has no named "
+                         "ones",
                          section);
 }
 
-bool irb_config_read_script(struct irb_animation *animation, struct irb_yaml *yaml,
+static bool read_camera_of_file(struct irb_scene_entry *entry, struct irb_yaml *yaml,
+                                irb_yaml_node node, struct irb_error *err)
+{
+    static const char *const allowed[] = {
+        IRB_CONFIG_CAMERA_OF_FILE(IRB_CONFIG_KEY_NAME) "near", "far", NULL};
+    struct section s = {.yaml = yaml, .animation = &entry->animation, .name = "camera"};
+    struct irb_animation *a = &entry->animation;
+    if (!read_file_name(yaml, node, allowed, "camera", &entry->camera_name, err) ||
+        !read_number(&s, node, "near", 0, FLT_MAX, &a->z_near, err) ||
+        !read_number(&s, node, "far", 0, FLT_MAX, &a->z_far, err))
+        return false;
+    return !(a->z_near > 0 && a->z_far > 0 && a->z_near >= a->z_far) ||
+           irb_yaml_fail(yaml, node, err, "camera: near must be below far, found %g and %g",
+                         (double)a->z_near, (double)a->z_far);
+}
+
+static bool read_light_of_file(struct irb_scene_entry *entry, struct irb_yaml *yaml,
+                               irb_yaml_node node, struct irb_error *err)
+{
+    static const char *const allowed[] = {
+        IRB_CONFIG_LIGHT_OF_FILE(IRB_CONFIG_KEY_NAME) "beam_half_width", NULL};
+    struct section s = {.yaml = yaml, .animation = &entry->animation, .name = "light"};
+    return read_file_name(yaml, node, allowed, "light", &entry->light_name, err) &&
+           read_number(&s, node, "beam_half_width", 0, FLT_MAX, &entry->animation.beam_half_width,
+                       err);
+}
+
+bool irb_config_read_script(struct irb_scene_entry *entry, struct irb_yaml *yaml,
                             irb_yaml_node scene, bool builtin, struct irb_error *err)
 {
+    struct irb_animation *animation = &entry->animation;
     irb_yaml_node camera = irb_yaml_find(yaml, scene, "camera");
     irb_yaml_node light = irb_yaml_find(yaml, scene, "light");
-    if (!camera && !builtin)
-        return missing(yaml, scene, "camera", err);
-    if (!light && !builtin)
-        return missing(yaml, scene, "light", err);
-    if ((camera && !read_camera(animation, yaml, camera, builtin, err)) ||
-        (light && !read_light(animation, yaml, light, builtin, err)))
+    entry->camera_place = irb_yaml_place(yaml, camera ? camera : scene);
+    entry->light_place = irb_yaml_place(yaml, light ? light : scene);
+    if (names_one(yaml, camera)) {
+        if (builtin ? !no_names(yaml, camera, "camera", err)
+                    : !read_camera_of_file(entry, yaml, camera, err))
+            return false;
+    } else if (camera && !read_camera(animation, yaml, camera, builtin, err)) {
         return false;
-    return irb_animation_validate(animation, err) || irb_yaml_prefix(yaml, scene, err);
+    }
+    if (names_one(yaml, light)) {
+        if (builtin ? !no_names(yaml, light, "light", err)
+                    : !read_light_of_file(entry, yaml, light, err))
+            return false;
+    } else if (light && !read_light(animation, yaml, light, builtin, err)) {
+        return false;
+    }
+    /* what comes from the file is checked when that is loaded */
+    return !animation->camera_key_count || !animation->light_key_count ||
+           irb_animation_validate(animation, err) || irb_yaml_prefix(yaml, scene, err);
 }

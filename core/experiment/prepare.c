@@ -15,11 +15,13 @@
 
 /* Renders and keys the G-buffer of one frame and stores it unless the cache has it. */
 static bool prepare_gbuffer(struct irb_run *run, struct irb_gbuffer *gbuffer,
-                            const struct irb_scene_gl *scene, struct irb_sequence_frame *frame,
-                            struct irb_error *err)
+                            const struct irb_scene_gl *scene, struct irb_sequence *sequence,
+                            int index, struct irb_error *err)
 {
+    struct irb_sequence_frame *frame = &sequence->frames[index];
     struct irb_gbuffer_image image = {0};
-    if (!irb_gbuffer_render(gbuffer, scene, &frame->camera, err) ||
+    if (!irb_sequence_pose(sequence, index, err) ||
+        !irb_gbuffer_render(gbuffer, scene, &frame->camera, err) ||
         !irb_gbuffer_read(gbuffer, &image, err))
         return false;
     frame->gbuffer = irb_gbuffer_image_key(&image);
@@ -44,14 +46,14 @@ bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence,
     bool ok = gbuffer != NULL;
     for (int i = 0; ok && i < sequence->frame_count; i++) {
         struct irb_sequence_frame *frame = &sequence->frames[i];
-        if (irb_sequence_same_camera(sequence, i))
+        if (irb_sequence_same_view(sequence, i))
             frame->gbuffer = sequence->frames[i - 1].gbuffer;
         else
-            ok = prepare_gbuffer(run, gbuffer, scene, frame, err);
+            ok = prepare_gbuffer(run, gbuffer, scene, sequence, i, err);
         if (ok)
             frame->reference =
-                irb_reference_key(&sequence->scene_key, &frame->light, &frame->camera,
-                                  &frame->gbuffer, &config->reference);
+                irb_reference_key(&frame->scene, &frame->light, &frame->camera, &frame->gbuffer,
+                                  &config->reference);
     }
     irb_gbuffer_destroy(gbuffer);
     irb_scene_gl_destroy(scene);
@@ -103,6 +105,21 @@ static bool reference_missing(const struct irb_run *run, const struct irb_sequen
     return missing;
 }
 
+/* The tracer of a frame: made anew where objects have moved since *posed, the key of what *tracer
+ * holds. */
+static bool prepare_tracer(struct irb_sequence *sequence, int frame, struct irb_tracer **tracer,
+                           struct irb_key *posed, struct irb_error *err)
+{
+    const struct irb_key *wanted = &sequence->frames[frame].scene;
+    if (*tracer && !strcmp(posed->hex, wanted->hex))
+        return true;
+    irb_tracer_destroy(*tracer);
+    *tracer = irb_sequence_pose(sequence, frame, err) ? irb_tracer_create(sequence->scene, err)
+                                                      : NULL;
+    *posed = *wanted;
+    return *tracer != NULL;
+}
+
 bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
                             struct irb_error *err)
 {
@@ -115,8 +132,9 @@ bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
                  sequence->frame_count);
         return true;
     }
-    struct irb_tracer *tracer = irb_tracer_create(sequence->scene, err);
-    bool ok = tracer != NULL;
+    struct irb_tracer *tracer = NULL;
+    struct irb_key posed = {0};
+    bool ok = true;
     double start = irb_clock_s();
     int done = 0;
     for (int i = 0; ok && i < sequence->frame_count; i++) {
@@ -124,7 +142,7 @@ bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
             continue;
         irb_info(run->log, "%s: reference of frame %d (%d missing of %d)", sequence->entry->name,
                  i, missing - done, sequence->frame_count);
-        ok = !irb_run_stopped(run, err) &&
+        ok = !irb_run_stopped(run, err) && prepare_tracer(sequence, i, &tracer, &posed, err) &&
              prepare_reference(run, tracer, &sequence->frames[i], err);
         done++;
     }

@@ -35,7 +35,7 @@ struct scene_run {
     struct irb_run *run;
     struct irb_sequence *sequence;
     struct irb_scene_gl *scene;
-    struct irb_gbuffer *gbuffer;
+    struct irb_gbuffer *gbuffer; /* full precision: direct light, masks */
     struct irb_rsm *rsm;
     struct irb_gbuffer *slim_gbuffer; /* what methods get instead, NULL where they get the full */
     struct irb_rsm *slim_rsm;
@@ -108,6 +108,9 @@ static bool create_trial_state(struct scene_run *scene, struct trial_run *trial,
 {
     const struct irb_config *config = scene->run->config;
     const struct irb_method *method = trial->trial->method;
+    if (scene->sequence->moves && (method->needs & IRB_NEEDS_STATIC_GEOMETRY))
+        return irb_fail(err, IRB_E_USAGE, "%s: needs objects that rest, but those of %s move",
+                        method->name, scene->sequence->entry->name);
     trial->timer = irb_timer_create(scene->run->gl, err);
     if (!trial->timer)
         return false;
@@ -156,7 +159,8 @@ static bool open_passes(struct scene_run *scene, struct irb_error *err)
 {
     const struct irb_render_settings *render = &scene->run->config->render;
     struct irb_gl *gl = scene->run->gl;
-    return (scene->scene = irb_scene_gl_create(gl, scene->sequence->scene, err)) &&
+    return irb_sequence_pose(scene->sequence, 0, err) &&
+           (scene->scene = irb_scene_gl_create(gl, scene->sequence->scene, err)) &&
            (scene->gbuffer = irb_gbuffer_create(gl, render->width, render->height, err)) &&
            (scene->rsm = irb_rsm_create(gl, render->rsm_resolution, err)) &&
            (scene->direct = irb_direct_create(gl, render->width, render->height, err)) &&
@@ -170,8 +174,9 @@ static bool render_core(struct scene_run *scene, int frame, struct irb_error *er
     const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
     struct irb_gbuffer *gbuffer = scene->slim_gbuffer ? scene->slim_gbuffer : scene->gbuffer;
     struct irb_rsm *rsm = scene->slim_rsm ? scene->slim_rsm : scene->rsm;
+    bool ok = irb_sequence_pose(scene->sequence, frame, err);
     irb_timer_begin(scene->timer, IRB_CORE_GBUFFER);
-    bool ok = irb_gbuffer_render(gbuffer, scene->scene, &pose->camera, err);
+    ok = ok && irb_gbuffer_render(gbuffer, scene->scene, &pose->camera, err);
     irb_timer_end(scene->timer);
     irb_timer_begin(scene->timer, IRB_CORE_RSM);
     ok = ok && irb_rsm_render(rsm, scene->scene, &pose->light, err);
@@ -281,7 +286,7 @@ static bool store_shared(struct scene_run *scene, int frame, struct irb_error *e
         irb_run_file(run->dir, scene->sequence->entry->name, NULL, "direct", frame, "exr");
     bool ok = irb_fs_exists(direct) || irb_direct_file_save(direct, scene->direct->radiance, err);
     free(direct);
-    if (!ok || irb_sequence_same_camera(scene->sequence, frame))
+    if (!ok || irb_sequence_same_view(scene->sequence, frame))
         return ok;
     struct irb_gbuffer_image mine = {0};
     if (!irb_gbuffer_read(scene->gbuffer, &mine, err))

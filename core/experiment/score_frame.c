@@ -135,7 +135,7 @@ static bool score_view(const struct ranked *image, const struct irb_target_view 
     return true;
 }
 
-/* The previous frame's pair, brought to this frame's pixels where the camera moved. */
+/* The previous frame's pair, brought to this frame's pixels where camera or objects moved. */
 struct warped_pair {
     struct irb_pair pair;
     struct irb_image test, reference; /* owned where warped */

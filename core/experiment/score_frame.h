@@ -35,7 +35,7 @@ struct irb_score_context {
     const struct irb_target_constants *constants;
     const struct irb_target *target;
     const struct irb_target *previous_target; /* NULL in the first frame */
-    const struct irb_reprojection *motion;    /* NULL while the camera rests */
+    const struct irb_reprojection *motion;    /* NULL while the view rests */
     const struct irb_config *settings;
 };
 

@@ -28,7 +28,7 @@ struct scoring {
     struct irb_sequence *sequence;
     struct irb_target_constants constants;
     struct irb_target target, previous_target;
-    struct irb_reprojection motion; /* source NULL while the camera rests */
+    struct irb_reprojection motion; /* source NULL while the view rests */
     int previous_frame;             /* of previous_target; -1 = none */
     int frame;
     struct trial_scores *trials;
@@ -68,6 +68,19 @@ static bool score_trial(void *user, int index, int thread)
     return ok;
 }
 
+/* How the previous frame's surfaces moved into this one's. */
+static bool find_motion(struct scoring *s, struct irb_error *err)
+{
+    struct irb_moved_object *moved = NULL;
+    int count = 0;
+    if (!irb_sequence_moved(s->sequence, s->frame, &moved, &count, err))
+        return false;
+    bool ok = irb_reproject(&s->motion, &s->target.gbuffer, &s->previous_target.gbuffer,
+                            &s->sequence->frames[s->frame - 1].camera, moved, count, err);
+    free(moved);
+    return ok;
+}
+
 /* Target of this frame and of the one before it, and how one moved into the other. */
 static bool load_targets(struct scoring *s, struct irb_error *err)
 {
@@ -81,10 +94,7 @@ static bool load_targets(struct scoring *s, struct irb_error *err)
     }
     if (!irb_target_load(&s->target, s->run, s->sequence, s->frame, &s->constants, err))
         return false;
-    if (s->frame == 0 || irb_sequence_same_camera(s->sequence, s->frame))
-        return true;
-    return irb_reproject(&s->motion, &s->target.gbuffer, &s->previous_target.gbuffer,
-                         &s->sequence->frames[s->frame - 1].camera, err);
+    return s->frame == 0 || irb_sequence_same_view(s->sequence, s->frame) || find_motion(s, err);
 }
 
 static bool store_fresh(struct scoring *s, struct irb_error *err)

@@ -1,8 +1,108 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/experiment/sequence.h"
 
+#include "core/base/str.h"
+
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- what the scene's file brings ---- */
+
+static void list_names(const struct irb_scene *scene, bool lights, struct irb_str *list)
+{
+    int count = lights ? scene->light_count : scene->camera_count;
+    for (int i = 0; i < count; i++)
+        irb_str_printf(list, "%s'%s'", i ? ", " : "; there are ",
+                       lights ? scene->lights[i].name : scene->cameras[i].name);
+}
+
+static bool fail_missing(const struct irb_scene_entry *entry, const struct irb_scene *scene,
+                         bool light, struct irb_error *err)
+{
+    const char *what = light ? "light" : "camera";
+    const char *place = light ? entry->light_place : entry->camera_place;
+    const char *name = light ? entry->light_name : entry->camera_name;
+    struct irb_str list = {0};
+    list_names(scene, light, &list);
+    if (name)
+        irb_fail(err, IRB_E_INPUT, "%s: %s: the file of scene %s has none called '%.64s'%s", place,
+                 what, entry->name, name, list.text ? list.text : "; it has none at all");
+    else
+        irb_fail(err, IRB_E_INPUT,
+                 "%s: %s: missing; scene %s has none of its own, give position and target", place,
+                 what, entry->name);
+    irb_str_free(&list);
+    return false;
+}
+
+/* Light and camera of one frame, with the objects in place. */
+static bool set_view(const struct irb_sequence *sequence, int frame, struct irb_error *err)
+{
+    const struct irb_scene_entry *entry = sequence->entry;
+    const struct irb_scene *scene = sequence->scene;
+    const struct irb_animation *animation = &entry->animation;
+    struct irb_sequence_frame *out = &sequence->frames[frame];
+    if (animation->light_key_count) {
+        irb_animation_light(animation, scene, (float)frame, &out->light);
+    } else {
+        const struct irb_light *light = irb_scene_light_find(scene, entry->light_name);
+        if (!light)
+            return fail_missing(entry, scene, true, err);
+        out->light = *light;
+        if (animation->beam_half_width > 0)
+            out->light.half_width = animation->beam_half_width;
+        irb_light_fit(&out->light, scene);
+    }
+    if (animation->camera_key_count) {
+        irb_animation_camera(animation, scene, (float)frame, &out->camera);
+    } else {
+        const struct irb_camera *camera = irb_scene_camera_find(scene, entry->camera_name);
+        if (!camera)
+            return fail_missing(entry, scene, false, err);
+        out->camera = *camera;
+        out->camera.z_near = animation->z_near > 0 ? animation->z_near : out->camera.z_near;
+        out->camera.z_far = animation->z_far > 0 ? animation->z_far : out->camera.z_far;
+        irb_camera_fit(&out->camera, scene);
+    }
+    return true;
+}
+
+/* ---- frames ---- */
+
+static bool at_rest(const struct irb_scene *scene)
+{
+    for (int i = 0; i < scene->object_count; i++)
+        for (int k = 0; k < 16; k++)
+            if (scene->objects[i].transform[k] != (k % 5 == 0 ? 1.0f : 0.0f))
+                return false;
+    return true;
+}
+
+/* The scene's key at rest, and the objects' transforms where any has moved: hashing all vertices
+ * anew for each frame would be slow. */
+static struct irb_key pose_key(const struct irb_scene *scene, const struct irb_key *rest)
+{
+    if (at_rest(scene))
+        return *rest;
+    struct irb_hash *hash = irb_hash_create();
+    irb_hash_string(hash, "posed scene");
+    irb_hash_string(hash, rest->hex);
+    for (int i = 0; i < scene->object_count; i++)
+        irb_hash_floats(hash, scene->objects[i].transform, 16);
+    return irb_hash_finish(hash);
+}
+
+static bool set_frames(struct irb_sequence *sequence, struct irb_error *err)
+{
+    struct irb_key rest = irb_scene_key(sequence->scene);
+    for (int i = 0; i < sequence->frame_count; i++) {
+        if (!irb_sequence_pose(sequence, i, err) || !set_view(sequence, i, err))
+            return false;
+        sequence->frames[i].scene = pose_key(sequence->scene, &rest);
+        sequence->moves = sequence->moves || (i > 0 && !irb_sequence_same_pose(sequence, i));
+    }
+    return true;
+}
 
 bool irb_sequence_open(struct irb_sequence *sequence, const struct irb_config *config,
                        const struct irb_scene_entry *entry, struct irb_log *log,
@@ -10,21 +110,16 @@ bool irb_sequence_open(struct irb_sequence *sequence, const struct irb_config *c
 {
     *sequence = (struct irb_sequence){.entry = entry, .frame_count = config->render.frames};
     sequence->scene = irb_scene_load(entry->source, log, err);
-    if (!sequence->scene)
-        return false;
-    sequence->scene_key = irb_scene_key(sequence->scene);
-    sequence->frames = calloc((size_t)sequence->frame_count, sizeof *sequence->frames);
-    if (!sequence->frames) {
+    sequence->frames =
+        sequence->scene ? calloc((size_t)sequence->frame_count, sizeof *sequence->frames) : NULL;
+    bool ok = sequence->frames != NULL;
+    if (!ok && sequence->scene)
+        irb_fail(err, IRB_E_MEMORY, "%s: no memory for %d frames", entry->name,
+                 config->render.frames);
+    ok = ok && irb_poses_check(&entry->poses, sequence->scene, err) && set_frames(sequence, err);
+    if (!ok)
         irb_sequence_close(sequence);
-        return irb_fail(err, IRB_E_MEMORY, "%s: no memory for %d frames", entry->name,
-                        config->render.frames);
-    }
-    for (int i = 0; i < sequence->frame_count; i++) {
-        struct irb_sequence_frame *frame = &sequence->frames[i];
-        irb_animation_light(&entry->animation, sequence->scene, (float)i, &frame->light);
-        irb_animation_camera(&entry->animation, sequence->scene, (float)i, &frame->camera);
-    }
-    return true;
+    return ok;
 }
 
 void irb_sequence_close(struct irb_sequence *sequence)
@@ -34,6 +129,12 @@ void irb_sequence_close(struct irb_sequence *sequence)
     *sequence = (struct irb_sequence){0};
 }
 
+bool irb_sequence_pose(struct irb_sequence *sequence, int frame, struct irb_error *err)
+{
+    const struct irb_poses *poses = &sequence->entry->poses;
+    return !irb_poses_move(poses) || irb_poses_apply(poses, sequence->scene, (float)frame, err);
+}
+
 static struct irb_key camera_key(const struct irb_camera *camera)
 {
     struct irb_hash *hash = irb_hash_create();
@@ -41,11 +142,64 @@ static struct irb_key camera_key(const struct irb_camera *camera)
     return irb_hash_finish(hash);
 }
 
-bool irb_sequence_same_camera(const struct irb_sequence *sequence, int frame)
+bool irb_sequence_same_pose(const struct irb_sequence *sequence, int frame)
 {
-    if (frame == 0)
+    return frame > 0 && !strcmp(sequence->frames[frame].scene.hex,
+                                sequence->frames[frame - 1].scene.hex);
+}
+
+bool irb_sequence_same_view(const struct irb_sequence *sequence, int frame)
+{
+    if (!irb_sequence_same_pose(sequence, frame))
         return false;
     struct irb_key now = camera_key(&sequence->frames[frame].camera);
     struct irb_key before = camera_key(&sequence->frames[frame - 1].camera);
     return !strcmp(now.hex, before.hex);
+}
+
+static float (*copy_transforms(const struct irb_scene *scene))[16]
+{
+    float(*copy)[16] = malloc(((size_t)scene->object_count + 1) * sizeof *copy);
+    for (int i = 0; copy && i < scene->object_count; i++)
+        memcpy(copy[i], scene->objects[i].transform, sizeof copy[i]);
+    return copy;
+}
+
+static void list_moved(const struct irb_scene *scene, float (*before)[16],
+                       struct irb_moved_object *moved, int *count)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        const struct irb_object *object = &scene->objects[i];
+        float low[3], high[3];
+        if (!memcmp(before[i], object->transform, sizeof object->transform))
+            continue;
+        irb_object_rest_bounds(scene, object, low, high);
+        irb_moved_object_set(&moved[(*count)++], before[i], object->transform, low, high);
+    }
+}
+
+bool irb_sequence_moved(struct irb_sequence *sequence, int frame, struct irb_moved_object **moved,
+                        int *count, struct irb_error *err)
+{
+    struct irb_scene *scene = sequence->scene;
+    *moved = NULL;
+    *count = 0;
+    if (irb_sequence_same_pose(sequence, frame))
+        return true;
+    if (!irb_sequence_pose(sequence, frame - 1, err))
+        return false;
+    float(*before)[16] = copy_transforms(scene);
+    *moved = calloc((size_t)scene->object_count + 1, sizeof **moved);
+    bool ok = before && *moved;
+    if (!ok)
+        irb_fail(err, IRB_E_MEMORY, "no memory for %d objects", scene->object_count);
+    ok = ok && irb_sequence_pose(sequence, frame, err);
+    if (ok) {
+        list_moved(scene, before, *moved, count);
+    } else {
+        free(*moved);
+        *moved = NULL;
+    }
+    free(before);
+    return ok;
 }

@@ -101,10 +101,10 @@ void irb_target_destroy(struct irb_target *target)
     *target = (struct irb_target){0};
 }
 
-/* The frame whose mask file holds for `frame`: the first one with the same camera. */
+/* The frame whose mask file holds for `frame`: the first one with the same view. */
 static int mask_frame(const struct irb_sequence *sequence, int frame)
 {
-    while (frame > 0 && irb_sequence_same_camera(sequence, frame))
+    while (frame > 0 && irb_sequence_same_view(sequence, frame))
         frame--;
     return frame;
 }
@@ -250,7 +250,7 @@ static bool collect_frames(struct sequence_images *images, struct irb_target_con
         if (!irb_target_load(&target, run, sequence, i, NULL, err))
             return false;
         add_means(c, &target, sequence->frame_count);
-        c->camera_rests = c->camera_rests && (i == 0 || irb_sequence_same_camera(sequence, i));
+        c->view_rests = c->view_rests && (i == 0 || irb_sequence_same_view(sequence, i));
         if (i == 0 && run->config->render.exposure <= 0)
             c->exposure = irb_exposure_of(&target.full, &target.gbuffer);
         images->indirect[i] = target.indirect;
@@ -264,12 +264,12 @@ static bool collect_frames(struct sequence_images *images, struct irb_target_con
     return true;
 }
 
-/* Keeps what the lag is taken from: nothing where the camera moves or the sequence is short. */
+/* Keeps what the lag is taken from: nothing where camera or objects move, or the sequence is short. */
 static bool set_lag(struct irb_target_constants *c, const struct sequence_images *images,
                     struct irb_error *err)
 {
     struct irb_lag_range range = irb_lag_range(images->count);
-    if (!c->camera_rests || range.first > range.last)
+    if (!c->view_rests || range.first > range.last)
         return true;
     c->lag = irb_lag_reference_create(images->indirect->width, images->indirect->height,
                                       images->count, err);
@@ -288,7 +288,7 @@ bool irb_target_constants_of(struct irb_target_constants *constants, const struc
                              const struct irb_sequence *sequence, struct irb_error *err)
 {
     *constants = (struct irb_target_constants){.exposure = run->config->render.exposure,
-                                               .camera_rests = true};
+                                               .view_rests = true};
     size_t n = (size_t)sequence->frame_count;
     struct sequence_images images = {
         .indirect = calloc(n, sizeof *images.indirect),

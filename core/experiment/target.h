@@ -48,7 +48,7 @@ struct irb_target_constants {
     bool indirect_lit, full_lit; /* false: a black reference, FLIP is not defined */
     double peak_indirect, peak_full; /* of PSNR: 99.9th percentile of the sequence's values */
     double exposure;                 /* of previews, SSIM and LDR-FLIP */
-    bool camera_rests;               /* in every frame */
+    bool view_rests;                 /* neither camera nor objects move */
     struct irb_lag_reference *lag;   /* the indirect images, NULL where no lag is scored; owned */
     double noise;                /* reached, largest of the frames: see irb_reference_image */
 };

@@ -39,6 +39,12 @@ bool irb_yaml_prefix(const struct irb_yaml *yaml, irb_yaml_node node, struct irb
     return false;
 }
 
+char *irb_yaml_place(const struct irb_yaml *yaml, irb_yaml_node node)
+{
+    return irb_asprintf("%s:%zu:%zu", yaml->path, node->start_mark.line + 1,
+                        node->start_mark.column + 1);
+}
+
 bool irb_yaml_fail(const struct irb_yaml *yaml, irb_yaml_node node, struct irb_error *err,
                    const char *format, ...)
 {

@@ -34,6 +34,9 @@ bool irb_yaml_fail(const struct irb_yaml *yaml, irb_yaml_node node, struct irb_e
 /* Puts the node's place before the message that is already in *err; returns false. */
 bool irb_yaml_prefix(const struct irb_yaml *yaml, irb_yaml_node node, struct irb_error *err);
 
+/* "PATH:LINE:COLUMN" of a node, for messages that are made once the file is closed. Malloc'ed. */
+char *irb_yaml_place(const struct irb_yaml *yaml, irb_yaml_node node);
+
 /* "a map", "a list", "a value"; for messages. */
 const char *irb_yaml_kind(irb_yaml_node node);
 

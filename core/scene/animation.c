@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const irb_interpolation_names[] = {"linear", "catmull-rom", NULL};
-
 /* The nearest plane, as a share of the scene's diagonal: 4 mm in a 40 m hall. Depth is 32-bit float
  * and only orders surfaces; positions are stored apart. */
 #define NEAR_SHARE 1e-4
@@ -152,83 +150,6 @@ bool irb_animation_validate(const struct irb_animation *animation, struct irb_er
     return check_settings(animation, err);
 }
 
-/* ---- Interpolation ---- */
-
-/* A frame's place among the keys: between keys[1] and keys[2] at s in [0,1], with their neighbours
- * for the tangents (the same key again at the ends). */
-struct segment {
-    int keys[4];
-    double frames[4];
-    double s;
-};
-
-/* `frames` is the first key's frame; keys lie `stride` bytes apart. */
-static double frame_of(const float *frames, size_t stride, int key)
-{
-    return *(const float *)(const void *)((const char *)frames + stride * (size_t)key);
-}
-
-static struct segment find_segment(const float *frames, size_t stride, int count, double frame)
-{
-    struct segment segment = {0};
-    double first = frame_of(frames, stride, 0), last = frame_of(frames, stride, count - 1);
-    int k = 0;
-
-    frame = fmax(frame, 0); /* settle frames equal frame 0 */
-    frame = fmin(fmax(frame, first), last);
-    while (k + 2 < count && frame_of(frames, stride, k + 1) <= frame)
-        k++;
-    for (int i = 0; i < 4; i++) {
-        int key = k - 1 + i;
-
-        segment.keys[i] = key < 0 ? 0 : (key >= count ? count - 1 : key);
-        segment.frames[i] = frame_of(frames, stride, segment.keys[i]);
-    }
-    if (segment.frames[2] > segment.frames[1])
-        segment.s = (frame - segment.frames[1]) / (segment.frames[2] - segment.frames[1]);
-    return segment;
-}
-
-/* Slope (units a frame) at key i = 1 or 2: the chord between its neighbours, (p[i+1] - p[i-1]) /
- * (t[i+1] - t[i-1]), which is Catmull and Rom 1974 where keys are evenly spaced; one-sided at the
- * first and last key. */
-static double tangent(const struct segment *segment, const double p[4], int i)
-{
-    return (p[i + 1] - p[i - 1]) / (segment->frames[i + 1] - segment->frames[i - 1]);
-}
-
-/* Value of one scalar whose four keys are p. */
-static double interpolate(const struct segment *segment, enum irb_interpolation kind,
-                          const double p[4])
-{
-    double s = segment->s, length = segment->frames[2] - segment->frames[1];
-
-    if (!(length > 0) || s <= 0)
-        return p[1];
-    if (s >= 1)
-        return p[2];
-    if (kind == IRB_LINEAR)
-        return p[1] + (p[2] - p[1]) * s;
-    /* cubic Hermite */
-    double s2 = s * s, s3 = s2 * s;
-
-    return (2 * s3 - 3 * s2 + 1) * p[1] + (s3 - 2 * s2 + s) * length * tangent(segment, p, 1) +
-           (3 * s2 - 2 * s3) * p[2] + (s3 - s2) * length * tangent(segment, p, 2);
-}
-
-/* `values` is the first key's field. Scalars that have a range (intensities, angles) must not
- * overshoot their two keys: `bounded`. */
-static double field(const struct segment *segment, enum irb_interpolation kind, const float *values,
-                    size_t stride, bool bounded)
-{
-    double p[4], value;
-
-    for (int i = 0; i < 4; i++)
-        p[i] = frame_of(values, stride, segment->keys[i]);
-    value = interpolate(segment, kind, p);
-    return bounded ? fmin(fmax(value, fmin(p[1], p[2])), fmax(p[1], p[2])) : value;
-}
-
 static double radians(double degrees)
 {
     return degrees * (M_PI / 180);
@@ -258,6 +179,12 @@ static float beam_for_scene(const struct irb_light *light, const struct irb_scen
     return (float)(half * FAR_MARGIN);
 }
 
+void irb_light_fit(struct irb_light *light, const struct irb_scene *scene)
+{
+    if (light->type == IRB_LIGHT_DIRECTIONAL && !(light->half_width > 0))
+        light->half_width = beam_for_scene(light, scene);
+}
+
 /* Unit vector from position to target; where interpolation made them meet, key 1's of the segment.
  */
 static void light_direction(const struct irb_light_key *key, const double position[3],
@@ -281,29 +208,29 @@ void irb_animation_light(const struct irb_animation *animation, const struct irb
     const struct irb_light_key *keys = animation->light_keys;
     const size_t stride = sizeof *keys;
     enum irb_interpolation kind = animation->light_interpolation;
-    struct segment at = find_segment(&keys->frame, stride, animation->light_key_count, frame);
+    struct irb_key_segment at = irb_keys_find(&keys->frame, stride, animation->light_key_count, frame);
     double position[3], target[3];
 
     *out = (struct irb_light){.type = animation->light_type, .falloff = animation->falloff};
     for (int i = 0; i < 3; i++) {
-        position[i] = field(&at, kind, &keys->position[i], stride, false);
-        target[i] = field(&at, kind, &keys->target[i], stride, false);
-        out->intensity[i] = (float)field(&at, kind, &keys->intensity[i], stride, true);
+        position[i] = irb_keys_value(&at, kind, &keys->position[i], stride, false);
+        target[i] = irb_keys_value(&at, kind, &keys->target[i], stride, false);
+        out->intensity[i] = (float)irb_keys_value(&at, kind, &keys->intensity[i], stride, true);
     }
     vec_to_float(position, out->position);
     light_direction(&keys[at.keys[1]], position, target, out->direction);
-    out->outer = (float)radians(field(&at, kind, &keys->cone, stride, true));
-    out->inner = (float)radians(field(&at, kind, &keys->inner, stride, true));
+    out->outer = (float)radians(irb_keys_value(&at, kind, &keys->cone, stride, true));
+    out->inner = (float)radians(irb_keys_value(&at, kind, &keys->inner, stride, true));
     if (out->type == IRB_LIGHT_DIRECTIONAL)
-        out->half_width = animation->beam_half_width > 0 ? animation->beam_half_width
-                                                         : beam_for_scene(out, scene);
+        out->half_width = animation->beam_half_width;
+    irb_light_fit(out, scene);
 }
 
 /* ---- Camera ---- */
 
-static void near_and_far(const struct irb_animation *animation, const struct irb_scene *scene,
-                         struct irb_camera *camera)
+void irb_camera_fit(struct irb_camera *camera, const struct irb_scene *scene)
 {
+    bool far_is_given = camera->z_far > 0;
     float bounds[2][3];
     double farthest = 0;
 
@@ -315,13 +242,14 @@ static void near_and_far(const struct irb_animation *animation, const struct irb
             offset[i] = (double)bounds[(corner >> i) & 1][i] - camera->position[i];
         farthest = fmax(farthest, vec_length(offset));
     }
-    camera->z_near =
-        animation->z_near > 0 ? animation->z_near : (float)(NEAR_SHARE * irb_scene_diagonal(scene));
+    if (!(camera->z_near > 0))
+        camera->z_near = (float)(NEAR_SHARE * irb_scene_diagonal(scene));
     if (!(camera->z_near > 0)) /* a scene without extent */
         camera->z_near = (float)(NEAR_SHARE * (farthest > 0 ? farthest : 1));
-    camera->z_far = animation->z_far > 0 ? animation->z_far : (float)(farthest * FAR_MARGIN);
+    if (!far_is_given)
+        camera->z_far = (float)(farthest * FAR_MARGIN);
     if (!(camera->z_far > camera->z_near)) {
-        if (animation->z_far > 0)
+        if (far_is_given)
             camera->z_near = (float)(camera->z_far * NEAR_SHARE);
         else
             camera->z_far = 2 * camera->z_near;
@@ -352,16 +280,18 @@ void irb_animation_camera(const struct irb_animation *animation, const struct ir
     const struct irb_camera_key *keys = animation->camera_keys;
     const size_t stride = sizeof *keys;
     enum irb_interpolation kind = animation->camera_interpolation;
-    struct segment at = find_segment(&keys->frame, stride, animation->camera_key_count, frame);
+    struct irb_key_segment at = irb_keys_find(&keys->frame, stride, animation->camera_key_count, frame);
     double position[3], target[3], up[3];
 
     *out = (struct irb_camera){0};
     for (int i = 0; i < 3; i++) {
-        position[i] = field(&at, kind, &keys->position[i], stride, false);
-        target[i] = field(&at, kind, &keys->target[i], stride, false);
-        up[i] = field(&at, kind, &keys->up[i], stride, false);
+        position[i] = irb_keys_value(&at, kind, &keys->position[i], stride, false);
+        target[i] = irb_keys_value(&at, kind, &keys->target[i], stride, false);
+        up[i] = irb_keys_value(&at, kind, &keys->up[i], stride, false);
     }
     set_pose(&keys[at.keys[1]], position, target, up, out);
-    out->vertical_fov = (float)radians(field(&at, kind, &keys->fov, stride, true));
-    near_and_far(animation, scene, out);
+    out->vertical_fov = (float)radians(irb_keys_value(&at, kind, &keys->fov, stride, true));
+    out->z_near = animation->z_near;
+    out->z_far = animation->z_far;
+    irb_camera_fit(out, scene);
 }

@@ -5,11 +5,9 @@
 #ifndef IRB_SCENE_ANIMATION_H
 #define IRB_SCENE_ANIMATION_H
 
+#include "core/scene/keyframes.h"
 #include "core/scene/light.h"
 #include "core/scene/scene.h"
-
-enum irb_interpolation { IRB_LINEAR, IRB_CATMULL_ROM };
-extern const char *const irb_interpolation_names[]; /* "linear", "catmull-rom", NULL */
 
 /* One keyframe of the light; angles in degrees, as the config gives them. */
 struct irb_light_key {
@@ -52,5 +50,10 @@ void irb_animation_light(const struct irb_animation *animation, const struct irb
                          float frame, struct irb_light *out);
 void irb_animation_camera(const struct irb_animation *animation, const struct irb_scene *scene,
                           float frame, struct irb_camera *out);
+
+/* What a light or camera of a scene's file leaves open, from the scene's current bounds: the half
+ * width of a beam, the near and far planes where they are 0. */
+void irb_light_fit(struct irb_light *light, const struct irb_scene *scene);
+void irb_camera_fit(struct irb_camera *camera, const struct irb_scene *scene);
 
 #endif

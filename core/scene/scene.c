@@ -206,6 +206,23 @@ void irb_scene_current_bounds(const struct irb_scene *scene, float min[3], float
         extend_by_object(scene, &scene->objects[i], min, max);
 }
 
+void irb_object_rest_bounds(const struct irb_scene *scene, const struct irb_object *object,
+                            float min[3], float max[3])
+{
+    const uint32_t *index = scene->indices + 3 * (size_t)object->first_triangle;
+
+    for (int axis = 0; axis < 3; axis++) {
+        min[axis] = INFINITY;
+        max[axis] = -INFINITY;
+        for (size_t i = 0; i < 3 * (size_t)object->triangle_count; i++) {
+            float x = scene->positions[3 * (size_t)index[i] + (size_t)axis];
+
+            min[axis] = x < min[axis] ? x : min[axis];
+            max[axis] = x > max[axis] ? x : max[axis];
+        }
+    }
+}
+
 float irb_scene_diagonal(const struct irb_scene *scene)
 {
     double min[3], max[3], diagonal[3];

@@ -23,7 +23,8 @@ struct irb_material {
     float specular[3];   /* k_s, in [0,1] */
     float exponent;      /* alpha, >= 1 */
     int diffuse_texture; /* index into textures, or -1 */
-    float alpha_cutoff;  /* > 0: surface only where the texture's alpha reaches this; 0: opaque */
+    float alpha_cutoff;  /* > 0: surface only where the texture's alpha (its finest level, bilinear;
+                            1 without one) reaches this; 0: opaque */
 };
 
 /* 8-bit RGBA texture, colour sRGB-encoded (glTF base colour); row 0 at the top (glTF v = 0). */
@@ -98,6 +99,10 @@ struct irb_key irb_scene_key(const struct irb_scene *scene);
 
 /* Bounds of the scene with every object's current transform applied. */
 void irb_scene_current_bounds(const struct irb_scene *scene, float min[3], float max[3]);
+
+/* Bounds of one object at rest. */
+void irb_object_rest_bounds(const struct irb_scene *scene, const struct irb_object *object,
+                            float min[3], float max[3]);
 
 /* Length of the diagonal of the rest bounds. */
 float irb_scene_diagonal(const struct irb_scene *scene);

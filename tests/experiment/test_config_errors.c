@@ -141,8 +141,8 @@ static void test_top(void **state)
     expect_top("frame: 3", "@:2:1: config: unknown key 'frame'; did you mean 'frames'?");
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
-               "seeds, resolution, reference, scenes, scene, camera, light, regions, trials, width, "
-               "height, frames, settle, rsm_resolution, gbuffer_layout, rsm_layout, exposure, "
+               "seeds, resolution, reference, scenes, scene, camera, light, animation, "
+               "objects, regions, trials, width, height, frames, settle, rsm_resolution, gbuffer_layout, rsm_layout, exposure, "
                "repeats");
     expect_top("frames: 3\nframes: 4",
                "@:3:1: config: 'frames' stands here twice, first in line 2");
@@ -301,16 +301,57 @@ static void test_file_scenes(void **state)
     (void)state;
     const char *const light = "light: {position: [0, 1, 0], target: [0, 0, 0], intensity: 1}";
     const char *const camera = "camera: {position: [0, 1, 0], target: [0, 0, 1]}";
-    expect_file_scene(light, "@:1:1: camera: missing; a scene from a file has none of its own");
-    expect_file_scene(camera, "@:1:1: light: missing; a scene from a file has none of its own");
     char *text = irb_asprintf("%s\nlight: {position: [0, 1, 0], target: [0, 0, 0]}", camera);
     expect_file_scene(text,
-                      "@:3:8: light: intensity: missing; a scene from a file has none of its own");
+                      "@:3:8: light: intensity: missing; expected all of it, or the name: of one "
+                      "that the glTF file brings");
     free(text);
     text = irb_asprintf("%s\ncamera: {keys: [{frame: 0, position: [0, 1, 0]}]}", light);
     expect_file_scene(text,
-                      "@:3:17: camera: target: missing; a scene from a file has none of its own");
+                      "@:3:17: camera: target: missing; expected all of it, or the name: of one "
+                      "that the glTF file brings");
     free(text);
+}
+
+/* What the file may bring is named; the rest of the section is then the file's. */
+static void test_of_file(void **state)
+{
+    (void)state;
+    expect_file_scene("light: {name: Sun, cone: 3}",
+                      "@:2:20: light: unknown key 'cone'; expected one of: name, beam_half_width");
+    expect_file_scene("camera: {name: Main, near: 2, far: 1}",
+                      "@:2:9: camera: near must be below far, found 2 and 1");
+    expect_top("light: {name: Sun}",
+               "@:2:15: light: name: expected for a glTF file alone; a built-in scene has no named "
+               "ones");
+    expect_file_scene("animation: {fps: 0}",
+                      "@:2:18: fps: expected frames a second above 0, found 0");
+    expect_file_scene("animation: {fps: fast}", "@:2:18: fps: expected a number, found 'fast'");
+    expect_file_scene("animation: {frames: 3}",
+                      "@:2:13: animation: unknown key 'frames'; expected one of: fps, start");
+    expect_top("animation: {fps: 24}",
+               "@:2:12: animation: expected for a glTF file alone; a built-in scene has none "
+               "(objects: moves its objects)");
+}
+
+static void test_objects(void **state)
+{
+    (void)state;
+    expect_top("objects: sphere",
+               "@:2:10: objects: expected a list of 1 to 1024 maps, found a single value");
+    expect_top("objects: [{keys: [{frame: 0}]}]", "@:2:11: object: name: missing");
+    expect_top("objects: [{name: a}]",
+               "@:2:11: object: keys: expected a list of 1 to 4096 keys, found none");
+    expect_top("objects: [{name: a, keys: [{translate: [0, 0, 1]}]}]",
+               "@:2:28: object: frame: missing in a list of keys");
+    expect_top("objects: [{name: a, keys: [{frame: 1}, {frame: 1}]}]",
+               "@:2:48: frame: expected above 1, the key before it, found 1");
+    expect_top("objects: [{name: a, keys: [{frame: 0, rotate: [0, 0, 0, 90]}]}]",
+               "@:2:47: rotate: expected [x, y, z, degrees] about an axis that is not zero");
+    expect_top("objects: [{name: a, keys: [{frame: 0, scale: [1, 0, 1]}]}]",
+               "@:2:50: scale: expected 1e-06 to 1e+06, found 0");
+    expect_top("objects: [{name: a, keys: [{frame: 0}]}, {name: a, keys: [{frame: 0}]}]",
+               "@:2:49: objects: 'a' is there twice");
 }
 
 static void test_light(void **state)
@@ -577,6 +618,8 @@ int main(void)
         cmocka_unit_test(test_reference),    cmocka_unit_test(test_scenes),
         cmocka_unit_test(test_regions),
         cmocka_unit_test(test_environment),  cmocka_unit_test(test_file_scenes),
+        cmocka_unit_test(test_of_file),
+        cmocka_unit_test(test_objects),
         cmocka_unit_test(test_light),        cmocka_unit_test(test_keys),
         cmocka_unit_test(test_camera),       cmocka_unit_test(test_trials),
         cmocka_unit_test(test_one_line),     cmocka_unit_test(test_overrides),

@@ -150,6 +150,17 @@ static void set_specular(const struct gltf_loader *loader, const struct irb_gltf
     }
 }
 
+/* The texture's alpha that is needed: what the base colour's alpha leaves of the cutoff (glTF 2.0,
+ * 3.9.4). Above 1 nothing is left of the surface. */
+static float mask_cutoff(const struct irb_gltf_material *material)
+{
+    double cutoff = fmax(material->alpha_cutoff, 0), alpha = material->base_color[3];
+
+    if (!(cutoff > 0))
+        return 0;
+    return alpha > 0 ? (float)fmin(cutoff / alpha, 2) : 2;
+}
+
 bool gltf_material(struct gltf_loader *loader, int index, int *out, struct irb_error *err)
 {
     static const float default_white[3] = {1, 1, 1}; /* glTF 2.0, 3.9.6 */
@@ -175,7 +186,7 @@ bool gltf_material(struct gltf_loader *loader, int index, int *out, struct irb_e
             struct irb_material *made = &loader->builder.scene->materials[*slot];
 
             made->diffuse_texture = texture;
-            made->alpha_cutoff = (float)fmin(fmax(material->alpha_cutoff, 0), 1);
+            made->alpha_cutoff = mask_cutoff(material);
             set_specular(loader, material, index, made);
         }
     }
