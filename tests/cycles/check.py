@@ -30,7 +30,7 @@ do. Pixels at silhouettes and creases are left out; how many is printed. There a
 places vertices in steps of 1/256 pixel, and a ray may see different surfaces.
 
 Measured with Blender 3.4.1 and Embree 3.13 at the defaults (160x120 pixels, 1024 samples a pixel and
-seed; 8 minutes on two busy cores); the noise is that of the mean of both seeds, relative to the
+seed; 12 minutes on two busy cores); the noise is that of the mean of both seeds, relative to the
 mean radiance:
 
             ratio of sums       difference / noise             noise, pixel
