@@ -11,26 +11,26 @@ or, as a test that is off by default since it takes minutes,
     meson setup build -Dcycles=enabled && meson test -C build --suite optional
 
 Each scene (cornell, doorway, hall) is exported as a .glb with its view, and rendered by Cycles and
-by `irbench reference`, each with two seeds: its spot light with the falloff `cosine`, Lambert surfaces,
-one diffuse bounce. Compared are
+by `irbench reference`, each with two seeds: its spot light with the falloff `cosine`, Lambert
+surfaces, one diffuse bounce. Compared are
 
   direct    radiance W/(m2 sr) of light - diffuse - eye
   indirect  radiance W/(m2 sr) of light - diffuse - diffuse - eye: bounce 1, the target of scores
 
-Units: the .glb has W/sr, which becomes a Blender spot of 4 pi / cos(omega_s) times as many watts, as
-Cycles has a falloff of cos(theta) (cycles_render.py), so `cosine` is what can be held to it. Diffuse
-passes are irradiance / pi; times the colour they are radiance. The reference has irradiance in
+Units: the .glb has W/sr, which becomes a Blender spot of 4 pi / cos(omega_s) times as many watts,
+as Cycles has a falloff of cos(theta) (cycles_render.py), so `cosine` is what can be held to it. Its
+diffuse passes are irradiance / pi; times the colour they are radiance. The reference has irradiance in
 W/m2; times k_d / pi it is radiance.
 
 Indirect light must have the same sum within 1 % and may differ by at most 1.5 times what the two
 renderers' noise explains, pixel by pixel and in means over blocks of 8 x 8 (compare.py). Direct
-light has hardly any noise: its sum must be the same within 1 %, and no more than 0.5 % of the pixels
-may differ by more than 1 % (of the mean at least), which those that a shadow's edge runs through
+light has hardly any noise: its sum must be the same within 1 %, and no more than 0.5 % of the
+values may differ by more than 1 % (of the mean at least), which those that a shadow's edge runs through
 do. Pixels at silhouettes and creases are left out; how many is printed. There a rasteriser, which
 places vertices in steps of 1/256 pixel, and a ray may see different surfaces.
 
-Measured with Blender 3.4.1 and Embree 3.13 at the defaults (160x120 pixels, 1024 samples a pixel and
-seed; 12 minutes on two busy cores); the noise is that of the mean of both seeds, relative to the
+Measured with Blender 3.4.1 and Embree 3.13 at the defaults (160x120 pixels, 1024 samples a pixel
+and seed; 12 minutes on two busy cores); the noise is that of the mean of both seeds, relative to the
 mean radiance:
 
             ratio of sums       difference / noise             noise, pixel
@@ -132,7 +132,8 @@ def render_cycles(folder, scene, options):
             f'{folder}/cycles.log', env=environment)
         channels = exr.read(path)[2]
         colour = rgb(channels, f'{LAYER}.DiffCol')
-        images.append([times(rgb(channels, f'{LAYER}.{p}'), colour) for p in ('DiffDir', 'DiffInd')])
+        images.append([times(rgb(channels, f'{LAYER}.{p}'), colour)
+                       for p in ('DiffDir', 'DiffInd')])
     return images
 
 
@@ -148,7 +149,8 @@ def render_reference(folder, config, options):
         (gbuffer_path,) = glob.glob(f'{cache}/gbuffer-*.exr')
         channels, gbuffer = exr.read(path)[2], exr.read(gbuffer_path)[2]
         albedo = rgb(gbuffer, 'diffuse')
-        images.append([rgb(channels, 'direct'), times(rgb(channels, 'bounce1'), albedo, 1 / math.pi)])
+        images.append([rgb(channels, 'direct'),
+                       times(rgb(channels, 'bounce1'), albedo, 1 / math.pi)])
     return images, gbuffer
 
 
