@@ -55,10 +55,6 @@ struct irb_gbuffer *irb_gbuffer_create_layout(struct irb_gl *gl, enum irb_layout
                                               int height, struct irb_error *err)
 {
     const bool slim = layout == IRB_LAYOUT_SLIM;
-    const struct irb_program_desc program = {.name = slim ? "slim gbuffer" : "gbuffer",
-                                             .vertex = "frame/geometry.vert",
-                                             .fragment = slim ? "frame/gbuffer_slim.frag"
-                                                              : "frame/gbuffer.frag"};
     struct irb_gbuffer *gbuffer = calloc(1, sizeof *gbuffer);
     if (!gbuffer) {
         irb_fail(err, IRB_E_MEMORY, "out of memory");
@@ -68,8 +64,8 @@ struct irb_gbuffer *irb_gbuffer_create_layout(struct irb_gl *gl, enum irb_layout
     gbuffer->width = width;
     gbuffer->height = height;
     gbuffer->layout = layout;
-    gbuffer->program = irb_program_create(gl, &program, err);
-    if (gbuffer->program &&
+    if (irb_surface_program_create(&gbuffer->program, gl, slim ? "slim gbuffer" : "gbuffer",
+                                   slim ? "frame/gbuffer_slim.frag" : "frame/gbuffer.frag", err) &&
         (slim ? create_slim_targets(gbuffer, err) : create_targets(gbuffer, err)))
         return gbuffer;
     irb_gbuffer_destroy(gbuffer);
@@ -87,7 +83,7 @@ void irb_gbuffer_destroy(struct irb_gbuffer *gbuffer)
     irb_texture_destroy(gbuffer->diffuse);
     irb_texture_destroy(gbuffer->specular);
     irb_texture_destroy(gbuffer->depth);
-    irb_program_destroy(gbuffer->program);
+    irb_surface_program_destroy(&gbuffer->program);
     free(gbuffer);
 }
 
@@ -147,6 +143,16 @@ static void clear(const struct irb_gbuffer *gbuffer)
     api->ClearNamedFramebufferfv(gbuffer->framebuffer->id, GL_DEPTH, 0, &farthest);
 }
 
+static void set_uniforms(const struct irb_gbuffer *gbuffer, const float view_projection[16],
+                         const struct irb_program *program)
+{
+    irb_program_mat4(program, "view_projection", view_projection);
+    irb_program_vec3(program, "camera_position", gbuffer->camera_position);
+    irb_program_vec3(program, "view_right", gbuffer->right);
+    irb_program_vec3(program, "view_up", gbuffer->up);
+    irb_program_vec3(program, "view_back", gbuffer->back);
+}
+
 bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *scene,
                         const struct irb_camera *camera, struct irb_error *err)
 {
@@ -154,23 +160,23 @@ bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *
     const bool reversed = gbuffer->layout != IRB_LAYOUT_SLIM;
     float view[16], projection[16], view_projection[16];
 
+    if (!irb_surface_program_prepare(&gbuffer->program, scene, err))
+        return false;
     irb_camera_matrices(camera, (float)gbuffer->width / (float)gbuffer->height, view, projection);
     if (reversed)
         reverse_depth(camera, projection);
     multiply(projection, view, view_projection);
     keep_camera(gbuffer, camera, view, projection);
+    set_uniforms(gbuffer, view_projection, gbuffer->program.opaque);
+    if (gbuffer->program.masked)
+        set_uniforms(gbuffer, view_projection, gbuffer->program.masked);
     irb_framebuffer_bind(gbuffer->framebuffer);
     clear(gbuffer);
     if (reversed)
         api->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     api->Enable(GL_DEPTH_TEST);
     api->DepthFunc(reversed ? GL_GREATER : GL_LESS);
-    irb_program_mat4(gbuffer->program, "view_projection", view_projection);
-    irb_program_vec3(gbuffer->program, "camera_position", camera->position);
-    irb_program_vec3(gbuffer->program, "view_right", gbuffer->right);
-    irb_program_vec3(gbuffer->program, "view_up", gbuffer->up);
-    irb_program_vec3(gbuffer->program, "view_back", gbuffer->back);
-    irb_scene_gl_draw(scene, gbuffer->program);
+    irb_scene_gl_draw(scene, &gbuffer->program);
     api->Disable(GL_DEPTH_TEST);
     api->DepthFunc(GL_LESS);
     api->ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);

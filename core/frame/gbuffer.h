@@ -26,7 +26,7 @@ struct irb_gbuffer {
     struct irb_texture *specular;  /* RGBA32F: k_s; exponent alpha | RGBA8: k_s; log of alpha */
     struct irb_texture *depth;     /* DEPTH_COMPONENT32F, the rasteriser's own */
     struct irb_framebuffer *framebuffer;
-    struct irb_program *program;
+    struct irb_surface_program program;
     /* of the last render; the slim layout's positions and normals are decoded with them */
     float camera_position[3], right[3], up[3], back[3]; /* world; unit */
     float tangent[2];    /* of half the field of view, across and up */

@@ -63,10 +63,6 @@ struct irb_rsm *irb_rsm_create_layout(struct irb_gl *gl, enum irb_layout layout,
                                       struct irb_error *err)
 {
     const bool slim = layout == IRB_LAYOUT_SLIM;
-    const struct irb_program_desc program = {.name = slim ? "slim rsm" : "rsm",
-                                             .vertex = "frame/geometry.vert",
-                                             .fragment =
-                                                 slim ? "frame/rsm_slim.frag" : "frame/rsm.frag"};
     struct irb_rsm *rsm = calloc(1, sizeof *rsm);
     if (!rsm) {
         irb_fail(err, IRB_E_MEMORY, "out of memory");
@@ -75,8 +71,9 @@ struct irb_rsm *irb_rsm_create_layout(struct irb_gl *gl, enum irb_layout layout,
     rsm->gl = gl;
     rsm->resolution = resolution;
     rsm->layout = layout;
-    rsm->program = irb_program_create(gl, &program, err);
-    if (rsm->program && (slim ? create_slim_targets(rsm, err) : create_targets(rsm, err)))
+    if (irb_surface_program_create(&rsm->program, gl, slim ? "slim rsm" : "rsm",
+                                   slim ? "frame/rsm_slim.frag" : "frame/rsm.frag", err) &&
+        (slim ? create_slim_targets(rsm, err) : create_targets(rsm, err)))
         return rsm;
     irb_rsm_destroy(rsm);
     return NULL;
@@ -92,7 +89,7 @@ void irb_rsm_destroy(struct irb_rsm *rsm)
     irb_texture_destroy(rsm->flux);
     irb_texture_destroy(rsm->specular);
     irb_texture_destroy(rsm->depth);
-    irb_program_destroy(rsm->program);
+    irb_surface_program_destroy(&rsm->program);
     free(rsm);
 }
 
@@ -180,24 +177,34 @@ static void clear(const struct irb_rsm *rsm)
     api->ClearNamedFramebufferfv(rsm->framebuffer->id, GL_DEPTH, 0, zero);
 }
 
+static void set_uniforms(const struct irb_rsm *rsm, const struct irb_light *light,
+                         const struct irb_program *program)
+{
+    irb_light_uniforms(light, program);
+    irb_program_int(program, "resolution", rsm->resolution);
+    irb_program_float(program, "half_extent", rsm->half_extent);
+    irb_program_vec3(program, "flux_scale", rsm->flux_scale);
+    irb_program_mat4(program, "view_projection", rsm->view_projection);
+}
+
 bool irb_rsm_render(struct irb_rsm *rsm, const struct irb_scene_gl *scene,
                     const struct irb_light *light, struct irb_error *err)
 {
     const struct irb_gl_api *api = &rsm->gl->api;
 
+    if (!irb_surface_program_prepare(&rsm->program, scene, err))
+        return false;
     set_view_projection(rsm, scene->scene, light);
     set_flux_scale(rsm, light);
+    set_uniforms(rsm, light, rsm->program.opaque);
+    if (rsm->program.masked)
+        set_uniforms(rsm, light, rsm->program.masked);
     irb_framebuffer_bind(rsm->framebuffer);
     clear(rsm);
     api->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     api->Enable(GL_DEPTH_TEST);
     api->DepthFunc(GL_GREATER);
-    irb_light_uniforms(light, rsm->program);
-    irb_program_int(rsm->program, "resolution", rsm->resolution);
-    irb_program_float(rsm->program, "half_extent", rsm->half_extent);
-    irb_program_vec3(rsm->program, "flux_scale", rsm->flux_scale);
-    irb_program_mat4(rsm->program, "view_projection", rsm->view_projection);
-    irb_scene_gl_draw(scene, rsm->program);
+    irb_scene_gl_draw(scene, &rsm->program);
     api->Disable(GL_DEPTH_TEST);
     api->DepthFunc(GL_LESS);
     api->ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);

@@ -32,7 +32,7 @@ struct irb_rsm {
     struct irb_texture *depth;    /* DEPTH_COMPONENT32F, reversed (1 near, 0 far): the rasteriser's
                                      own, for comparisons take the distance in normal.w */
     struct irb_framebuffer *framebuffer;
-    struct irb_program *program;
+    struct irb_surface_program program;
     /* of the last render */
     float view_projection[16]; /* world -> clip, depth 1..0 */
     float half_extent;         /* of the image: tan(omega_s) at distance 1, or the beam's half side

@@ -131,6 +131,8 @@ struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_sce
     }
     out->scene = scene;
     out->gl = gl;
+    for (int i = 0; i < scene->material_count; i++)
+        out->masked = out->masked || scene->materials[i].alpha_cutoff > 0;
     if (create_buffers(out, err) && create_textures(out, err)) {
         create_vertex_array(out);
         if (irb_gl_check(gl, "scene: upload", err))
@@ -199,12 +201,26 @@ static void draw_object(const struct irb_scene_gl *scene, const struct irb_objec
                       (const char *)NULL + (size_t)object->first_triangle * 12);
 }
 
-void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_program *program)
+static void draw_objects(const struct irb_scene_gl *scene, const struct irb_program *program,
+                         bool masked)
+{
+    irb_program_use(program);
+    irb_program_int(program, "diffuse_map", DIFFUSE_MAP_UNIT);
+    for (int i = 0; i < scene->scene->object_count; i++) {
+        const struct irb_object *object = &scene->scene->objects[i];
+        const struct irb_material *material = &scene->scene->materials[object->material];
+        if (!object->triangle_count || (material->alpha_cutoff > 0) != masked)
+            continue;
+        if (masked)
+            irb_program_float(program, "alpha_cutoff", material->alpha_cutoff);
+        draw_object(scene, object, program);
+    }
+}
+
+void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_surface_program *program)
 {
     const struct irb_gl_api *api = &scene->gl->api;
 
-    irb_program_use(program);
-    irb_program_int(program, "diffuse_map", DIFFUSE_MAP_UNIT);
     api->Disable(GL_CULL_FACE);
     api->Disable(GL_BLEND);
     api->Disable(GL_SCISSOR_TEST);
@@ -213,8 +229,40 @@ void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_progra
     api->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, FLAT_NORMALS_BINDING, scene->flat_normals->id);
     api->BindVertexArray(scene->vertex_array);
-    for (int i = 0; i < scene->scene->object_count; i++)
-        if (scene->scene->objects[i].triangle_count)
-            draw_object(scene, &scene->scene->objects[i], program);
+    draw_objects(scene, program->opaque, false);
+    if (scene->masked)
+        draw_objects(scene, program->masked, true);
     api->BindVertexArray(0);
+}
+
+/* ---- Programs ---- */
+
+bool irb_surface_program_create(struct irb_surface_program *out, struct irb_gl *gl,
+                                const char *name, const char *fragment, struct irb_error *err)
+{
+    const struct irb_program_desc desc = {
+        .name = name, .vertex = "frame/geometry.vert", .fragment = fragment};
+    *out = (struct irb_surface_program){.name = name, .fragment = fragment};
+    out->opaque = irb_program_create(gl, &desc, err);
+    return out->opaque != NULL;
+}
+
+void irb_surface_program_destroy(struct irb_surface_program *program)
+{
+    irb_program_destroy(program->opaque);
+    irb_program_destroy(program->masked);
+    *program = (struct irb_surface_program){0};
+}
+
+bool irb_surface_program_prepare(struct irb_surface_program *program,
+                                 const struct irb_scene_gl *scene, struct irb_error *err)
+{
+    static const char *const defines[] = {"ALPHA_MASK 1", NULL};
+    const struct irb_program_desc desc = {.name = program->name,
+                                          .vertex = "frame/geometry.vert",
+                                          .fragment = program->fragment,
+                                          .defines = defines};
+    if (scene->masked && !program->masked)
+        program->masked = irb_program_create(scene->gl, &desc, err);
+    return !scene->masked || program->masked;
 }

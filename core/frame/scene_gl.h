@@ -16,16 +16,30 @@ struct irb_scene_gl {
     struct irb_buffer *flat_normals; /* one vec4 a triangle: unit normal at rest; 0 */
     struct irb_texture **textures;   /* one a scene texture, sRGB-decoded, mipmapped */
     unsigned vertex_array;
+    bool masked; /* some material has an alpha mask */
 };
 
 struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_scene *scene,
                                          struct irb_error *err);
 void irb_scene_gl_destroy(struct irb_scene_gl *scene);
 
-/* Draws every object's current pose with `program`, made of frame/geometry.vert and a fragment
- * shader that includes frame/geometry.glsl. The caller has set the uniform view_projection, the
- * framebuffer and the depth state; culling and blending are turned off here. Uses texture unit 0
- * and shader storage binding 0. */
-void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_program *program);
+/* A program made of frame/geometry.vert and a fragment shader that includes frame/geometry.glsl, in
+ * two variants: `masked`, which is NULL until a scene needs it, cuts away what alpha masks hide. */
+struct irb_surface_program {
+    const char *name, *fragment;
+    struct irb_program *opaque, *masked; /* owned */
+};
+
+bool irb_surface_program_create(struct irb_surface_program *out, struct irb_gl *gl,
+                                const char *name, const char *fragment, struct irb_error *err);
+void irb_surface_program_destroy(struct irb_surface_program *program);
+/* Makes the variants that the scene needs. */
+bool irb_surface_program_prepare(struct irb_surface_program *program,
+                                 const struct irb_scene_gl *scene, struct irb_error *err);
+
+/* Draws every object's current pose. The program is prepared, and the caller has set the uniform
+ * view_projection and the shader's own in both variants, the framebuffer and the depth state;
+ * culling and blending are turned off here. Uses texture unit 0 and shader storage binding 0. */
+void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_surface_program *program);
 
 #endif

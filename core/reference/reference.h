@@ -10,8 +10,9 @@
  *
  * Surfaces are two-sided: the geometric side that faces a ray is the side that is seen, the shading
  * normal is turned to that side, and light that arrives at the other side contributes nothing.
- * Bounces are diffuse (k_d). A build without Embree (-Dreference=disabled) has the options, the key
- * and the files; tracing fails with IRB_E_USAGE.
+ * Bounces are diffuse (k_d). Alpha masks cut surfaces as they do in the G-buffer. A build without
+ * Embree (-Dreference=disabled) has the options, the key and the files; tracing fails with
+ * IRB_E_USAGE.
  *
  * Does not: filter textures by footprint (the finest level, bilinear, as nothing is minified by a
  * ray), or clamp anything.

@@ -64,7 +64,10 @@ static void fill_triangle(struct surface_set *set, uint32_t index, const struct 
     t->geometric = v3_normalize_safe(v3_cross(edge1, edge2));
     t->diffuse = v3_load(material->diffuse);
     d->texture = material->diffuse_texture;
-    t->detail = d->texture < 0 && is_flat(d, t->geometric) ? -1 : (*details)++;
+    d->alpha_cutoff = material->alpha_cutoff;
+    set->masked = set->masked || d->alpha_cutoff > 0;
+    bool plain = d->texture < 0 && !(d->alpha_cutoff > 0) && is_flat(d, t->geometric);
+    t->detail = plain ? -1 : (*details)++;
 }
 
 static bool copy_textures(struct surface_set *set, const struct irb_scene *scene)
@@ -154,27 +157,67 @@ static int wrap(int i, int size)
     return i < 0 ? i + size : i;
 }
 
-/* Bilinear between texel centres, repeated, decoded before it is filtered as OpenGL does. Row 0 is
- * v = 0. */
-struct vec3 surface_texture_sample(const struct surface_set *set, int texture, float u, float v)
+/* The four texels round a point, wrapped, and their weights: bilinear between texel centres, as
+ * OpenGL has it. Row 0 is v = 0. False where u or v is no number. */
+static bool find_texels(const struct surface_texture *t, float u, float v,
+                        const unsigned char *texels[4], float weights[4])
 {
-    const struct surface_texture *t = &set->textures[texture];
     u -= floorf(u);
     v -= floorf(v);
     if (!isfinite(u) || !isfinite(v))
-        return v3(1, 1, 1);
+        return false;
     float x = u * (float)t->width - 0.5f, y = v * (float)t->height - 0.5f;
     int x0 = (int)floorf(x), y0 = (int)floorf(y);
     float fx = x - (float)x0, fy = y - (float)y0;
-    struct vec3 sum = v3(0, 0, 0);
     for (int k = 0; k < 4; k++) {
         int dx = k & 1, dy = k >> 1;
-        const unsigned char *texel =
-            t->rgba + 4 * ((size_t)wrap(y0 + dy, t->height) * (size_t)t->width +
-                           (size_t)wrap(x0 + dx, t->width));
-        float weight = (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy);
-        sum =
-            v3_mad(sum, weight, v3(set->srgb[texel[0]], set->srgb[texel[1]], set->srgb[texel[2]]));
+        texels[k] = t->rgba + 4 * ((size_t)wrap(y0 + dy, t->height) * (size_t)t->width +
+                                   (size_t)wrap(x0 + dx, t->width));
+        weights[k] = (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy);
     }
+    return true;
+}
+
+/* Decoded before it is filtered, as OpenGL does. */
+struct vec3 surface_texture_sample(const struct surface_set *set, int texture, float u, float v)
+{
+    const unsigned char *texels[4];
+    float weights[4];
+    if (!find_texels(&set->textures[texture], u, v, texels, weights))
+        return v3(1, 1, 1);
+    struct vec3 sum = v3(0, 0, 0);
+    for (int k = 0; k < 4; k++)
+        sum = v3_mad(sum, weights[k],
+                     v3(set->srgb[texels[k][0]], set->srgb[texels[k][1]], set->srgb[texels[k][2]]));
     return sum;
+}
+
+static const struct surface_detail *detail_of(const struct surface_set *set, uint32_t index)
+{
+    int detail = set->triangles[index].detail;
+    return detail < 0 ? NULL : &set->details[detail];
+}
+
+bool surface_is_masked(const struct surface_set *set, uint32_t index)
+{
+    const struct surface_detail *d = detail_of(set, index);
+    return d && d->alpha_cutoff > 0;
+}
+
+bool surface_is_there(const struct surface_set *set, uint32_t index, float u, float v)
+{
+    const struct surface_detail *d = detail_of(set, index);
+    const unsigned char *texels[4];
+    float weights[4], w = 1 - u - v, alpha = 0;
+    if (!d || !(d->alpha_cutoff > 0))
+        return true;
+    if (d->texture < 0)
+        return 1 >= d->alpha_cutoff;
+    float s = w * d->texcoord[0][0] + u * d->texcoord[1][0] + v * d->texcoord[2][0];
+    float t = w * d->texcoord[0][1] + u * d->texcoord[1][1] + v * d->texcoord[2][1];
+    if (!find_texels(&set->textures[d->texture], s, t, texels, weights))
+        return true;
+    for (int k = 0; k < 4; k++)
+        alpha += weights[k] * (float)texels[k][3] / 255;
+    return alpha >= d->alpha_cutoff;
 }

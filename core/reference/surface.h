@@ -27,7 +27,8 @@ enum { SURFACE_TRIANGLE_ALIGNMENT = sizeof(struct surface_triangle) };
 struct surface_detail {
     struct vec3 normal[3];
     float texcoord[3][2];
-    int texture; /* -1: none */
+    int texture;        /* -1: none */
+    float alpha_cutoff; /* 0: opaque */
 };
 
 struct surface_texture {
@@ -42,6 +43,7 @@ struct surface_set {
     uint32_t triangle_count;
     int texture_count;
     float srgb[256];    /* decoded 8-bit values */
+    bool masked;        /* some triangle has an alpha mask */
     float offset;       /* SURFACE_OFFSET times the scene's diagonal, metres */
     struct irb_key key; /* of all that is traced */
 };
@@ -50,6 +52,10 @@ bool surface_set_create(struct surface_set *set, const struct irb_scene *scene,
                         struct irb_error *err);
 void surface_set_destroy(struct surface_set *set);
 struct vec3 surface_texture_sample(const struct surface_set *set, int texture, float u, float v);
+
+/* Whether triangle `index` has an alpha mask, and whether that leaves the point (u, v) of it. */
+bool surface_is_masked(const struct surface_set *set, uint32_t index);
+bool surface_is_there(const struct surface_set *set, uint32_t index, float u, float v);
 
 /* A point of a surface, on the side that a ray sees. */
 struct surface_point {

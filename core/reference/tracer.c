@@ -13,31 +13,78 @@ struct irb_tracer {
     RTCDevice device;
     RTCScene scene;
     struct surface_set surfaces;
+    uint32_t *triangle_of[2]; /* of each geometry's primitives, where there are masks; owned */
 };
 
-static bool attach_geometry(struct irb_tracer *tracer)
+/* Geometries of the scene: an alpha mask costs a call a hit, which only what has one shall pay. */
+enum { OPAQUE, MASKED, GEOMETRIES };
+
+/* Embree's filter: a hit that the mask leaves out doesn't count, and the ray goes on. Rays are
+ * traced one by one, for which RTCHitN is a plain RTCHit. */
+static void cut_away(const struct RTCFilterFunctionNArguments *args)
+{
+    const struct irb_tracer *tracer = args->geometryUserPtr;
+    const struct RTCHit *hit = (const void *)args->hit;
+    if (args->valid[0] == -1 && !surface_is_there(&tracer->surfaces,
+                                                  tracer->triangle_of[MASKED][hit->primID], hit->u,
+                                                  hit->v))
+        args->valid[0] = 0;
+}
+
+static void fill_geometry(const struct irb_tracer *tracer, unsigned id, struct vec3 *vertices,
+                          uint32_t *indices, uint32_t count)
 {
     const struct surface_set *set = &tracer->surfaces;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t triangle = set->masked ? tracer->triangle_of[id][i] : i;
+        for (uint32_t k = 3 * i; k < 3 * i + 3; k++) {
+            vertices[k] = set->triangles[triangle].vertex[k - 3 * i];
+            indices[k] = k;
+        }
+    }
+}
+
+static bool attach_geometry(struct irb_tracer *tracer, unsigned id, uint32_t count)
+{
     RTCGeometry geometry = rtcNewGeometry(tracer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     struct vec3 *vertices =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof *vertices, 3 * (size_t)set->triangle_count);
-    uint32_t *indices =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof *indices, set->triangle_count);
+                                sizeof *vertices, 3 * (size_t)count);
+    uint32_t *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                RTC_FORMAT_UINT3, 3 * sizeof *indices, count);
     if (vertices && indices) {
-        for (uint32_t i = 0; i < set->triangle_count; i++) {
-            for (uint32_t k = 3 * i; k < 3 * i + 3; k++) {
-                vertices[k] = set->triangles[i].vertex[k - 3 * i];
-                indices[k] = k;
-            }
-        }
+        fill_geometry(tracer, id, vertices, indices, count);
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+        if (id == MASKED) {
+            rtcSetGeometryUserData(geometry, tracer);
+            rtcSetGeometryIntersectFilterFunction(geometry, cut_away);
+            rtcSetGeometryOccludedFilterFunction(geometry, cut_away);
+        }
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(tracer->scene, geometry, 0);
+        rtcAttachGeometryByID(tracer->scene, geometry, id);
     }
     rtcReleaseGeometry(geometry);
     return vertices && indices;
+}
+
+/* Without masks one geometry holds all triangles, numbered as they are. */
+static bool attach_geometries(struct irb_tracer *tracer)
+{
+    const struct surface_set *set = &tracer->surfaces;
+    uint32_t counts[GEOMETRIES] = {0};
+    if (!set->masked)
+        return attach_geometry(tracer, OPAQUE, set->triangle_count);
+    for (int id = 0; id < GEOMETRIES; id++) {
+        tracer->triangle_of[id] = malloc(set->triangle_count * sizeof *tracer->triangle_of[id]);
+        if (!tracer->triangle_of[id])
+            return false;
+    }
+    for (uint32_t i = 0; i < set->triangle_count; i++) {
+        int id = surface_is_masked(set, i) ? MASKED : OPAQUE;
+        tracer->triangle_of[id][counts[id]++] = i;
+    }
+    return (!counts[OPAQUE] || attach_geometry(tracer, OPAQUE, counts[OPAQUE])) &&
+           attach_geometry(tracer, MASKED, counts[MASKED]);
 }
 
 struct irb_tracer *irb_tracer_create(const struct irb_scene *scene, struct irb_error *err)
@@ -56,7 +103,7 @@ struct irb_tracer *irb_tracer_create(const struct irb_scene *scene, struct irb_e
     tracer->device = rtcNewDevice("threads=1");
     if (tracer->device)
         tracer->scene = rtcNewScene(tracer->device);
-    bool attached = tracer->scene && attach_geometry(tracer);
+    bool attached = tracer->scene && attach_geometries(tracer);
     if (attached) {
         rtcSetSceneFlags(tracer->scene, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(tracer->scene, RTC_BUILD_QUALITY_HIGH);
@@ -81,6 +128,8 @@ void irb_tracer_destroy(struct irb_tracer *tracer)
     if (tracer->device)
         rtcReleaseDevice(tracer->device);
     surface_set_destroy(&tracer->surfaces);
+    free(tracer->triangle_of[OPAQUE]);
+    free(tracer->triangle_of[MASKED]);
     free(tracer);
 }
 
@@ -126,6 +175,7 @@ void trace_closest(struct trace_context *context, const struct trace_ray *rays, 
 {
     struct RTCIntersectContext embree;
     RTCScene scene = context->tracer->scene;
+    const bool masked = context->tracer->surfaces.masked;
     rtcInitIntersectContext(&embree);
     context->rays += (uint64_t)count;
     if (context->recording)
@@ -140,6 +190,8 @@ void trace_closest(struct trace_context *context, const struct trace_ray *rays, 
         hits[i].u = query.hit.u;
         hits[i].v = query.hit.v;
         hits[i].triangle = query.hit.primID;
+        if (masked && query.hit.primID != TRACE_MISS)
+            hits[i].triangle = context->tracer->triangle_of[query.hit.geomID][query.hit.primID];
     }
 }
 
