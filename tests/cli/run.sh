@@ -21,6 +21,11 @@ camera:
   keys:
     - {frame: 0, position: [0.278, 0.273, -0.8], target: [0.278, 0.273, 0], fov: 39}
     - {frame: 2, position: [0.30, 0.273, -0.8], target: [0.278, 0.273, 0], fov: 39}
+objects:
+  - name: short block
+    keys:
+      - {frame: 0}
+      - {frame: 2, translate: [0.05, 0.02, 0], rotate: [0, 1, 0, 20]}
 trials:
   - rsm: {mode: uniform, samples: 64}
   - rsm: {mode: importance, samples: 64}

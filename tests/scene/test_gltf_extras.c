@@ -190,6 +190,11 @@ static void the_alpha_mask_is_kept(void **state)
     REQUIRE_NEAR(material_of(folder, "\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25").alpha_cutoff,
                  0.25, 0);
     REQUIRE_NEAR(material_of(folder, "\"alphaMode\":\"MASK\"").alpha_cutoff, 0.5, 0);
+    /* what the base colour's alpha leaves of it is the texture's part */
+    REQUIRE_NEAR(material_of(folder, "\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25,"
+                                     "\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.5]}")
+                     .alpha_cutoff,
+                 0.5, 0);
     REQUIRE_NEAR(material_of(folder, "\"alphaMode\":\"OPAQUE\"").alpha_cutoff, 0, 0);
     REQUIRE_NEAR(material_of(folder, "\"doubleSided\":true").alpha_cutoff, 0, 0);
 }
