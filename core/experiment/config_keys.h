@@ -101,6 +101,7 @@
  * what stands here with its time before it. */
 #define IRB_CONFIG_CAMERA_KEYFRAME(X) IRB_CONFIG_KEY_TIME(X) IRB_CONFIG_CAMERA_KEY(X)
 #define IRB_CONFIG_LIGHT_KEYFRAME(X) IRB_CONFIG_KEY_TIME(X) IRB_CONFIG_LIGHT_KEY(X)
+#define IRB_CONFIG_OBJECT_KEYFRAME(X) IRB_CONFIG_KEY_TIME(X) IRB_CONFIG_OBJECT_KEY(X)
 #define IRB_CONFIG_SECTIONS(S)                                                                     \
     S("At the top", IRB_CONFIG_TOP_KEYS)                                                           \
     S("An item of `scenes`", IRB_CONFIG_SCENE_KEYS)                                                \
@@ -108,6 +109,11 @@
     S("An item of `camera: keys`", IRB_CONFIG_CAMERA_KEYFRAME)                                     \
     S("`light`", IRB_CONFIG_LIGHT_SETTINGS)                                                        \
     S("An item of `light: keys`", IRB_CONFIG_LIGHT_KEYFRAME)                                       \
+    S("`camera` of a glTF file", IRB_CONFIG_CAMERA_OF_FILE)                                        \
+    S("`light` of a glTF file", IRB_CONFIG_LIGHT_OF_FILE)                                          \
+    S("`animation`", IRB_CONFIG_ANIMATION_KEYS)                                                    \
+    S("An item of `objects`", IRB_CONFIG_OBJECT_SETTINGS)                                          \
+    S("An item of `objects: keys`", IRB_CONFIG_OBJECT_KEYFRAME)                                    \
     S("An item of `regions`", IRB_CONFIG_REGION_KEYS)
 
 /* The names alone, for lists of what is allowed. */

@@ -6,7 +6,7 @@
  * Differences are taken at the pixels of a regular grid, at most IRB_LAG_PIXELS of them: a mean
  * over the image needs no more, and the references of a whole sequence stay in memory.
  *
- * Does not: follow a camera that moves; there is no lag then.
+ * Does not: follow a camera or objects that move; there is no lag then.
  */
 #ifndef IRB_SCORE_LAG_H
 #define IRB_SCORE_LAG_H

@@ -47,7 +47,7 @@
     IRB_METRICS_OF_IMAGE(X, full, "full")                                                          \
     X(lag, "frames", ZERO,                                                                         \
       "shift tau, -3 to 8, with the least mean |v_t - r_(t-tau)| of the indirect image over the "  \
-      "sequence; camera at rest")                                                                  \
+      "sequence; camera and objects at rest")                                                      \
     X(solution_rmse, IRB_RADIANCE_UNIT, LOWER,                                                     \
       "full image against bounces 1 to 16: RMSE, sqrt(mean (v-r)^2)")                              \
     X(solution_relmse, "", LOWER,                                                                  \
