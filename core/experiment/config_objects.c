@@ -148,9 +148,9 @@ static bool read_interpolation(struct irb_object_script *script, struct irb_yaml
             script->interpolation = (enum irb_interpolation)i;
             return true;
         }
-    return text && irb_yaml_fail(yaml, node, err,
-                                 "interpolation: expected one of linear, catmull-rom; found '%.64s'",
-                                 text);
+    return text &&
+           irb_yaml_fail(yaml, node, err,
+                         "interpolation: expected one of linear, catmull-rom; found '%.64s'", text);
 }
 
 static bool read_object(struct irb_poses *poses, struct irb_yaml *yaml, irb_yaml_node node,

@@ -173,10 +173,11 @@ static bool check_required(const struct section *s, irb_yaml_node node, struct i
 {
     for (int i = 0; s->required[i]; i++)
         if (!irb_yaml_find(s->yaml, node, s->required[i]))
-            return irb_yaml_fail(s->yaml, node, err,
-                                 "%s: %s: missing; expected all of it, or the name: of one that the "
-                                 "glTF file brings",
-                                 s->name, s->required[i]);
+            return irb_yaml_fail(
+                s->yaml, node, err,
+                "%s: %s: missing; expected all of it, or the name: of one that the "
+                "glTF file brings",
+                s->name, s->required[i]);
     return true;
 }
 
@@ -371,8 +372,8 @@ static bool no_names(struct irb_yaml *yaml, irb_yaml_node node, const char *sect
 static bool read_camera_of_file(struct irb_scene_entry *entry, struct irb_yaml *yaml,
                                 irb_yaml_node node, struct irb_error *err)
 {
-    static const char *const allowed[] = {
-        IRB_CONFIG_CAMERA_OF_FILE(IRB_CONFIG_KEY_NAME) "near", "far", NULL};
+    static const char *const allowed[] = {IRB_CONFIG_CAMERA_OF_FILE(IRB_CONFIG_KEY_NAME) "near",
+                                          "far", NULL};
     struct section s = {.yaml = yaml, .animation = &entry->animation, .name = "camera"};
     struct irb_animation *a = &entry->animation;
     if (!read_file_name(yaml, node, allowed, "camera", &entry->camera_name, err) ||

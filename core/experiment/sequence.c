@@ -144,8 +144,8 @@ static struct irb_key camera_key(const struct irb_camera *camera)
 
 bool irb_sequence_same_pose(const struct irb_sequence *sequence, int frame)
 {
-    return frame > 0 && !strcmp(sequence->frames[frame].scene.hex,
-                                sequence->frames[frame - 1].scene.hex);
+    return frame > 0 &&
+           !strcmp(sequence->frames[frame].scene.hex, sequence->frames[frame - 1].scene.hex);
 }
 
 bool irb_sequence_same_view(const struct irb_sequence *sequence, int frame)

@@ -25,9 +25,9 @@ static void cut_away(const struct RTCFilterFunctionNArguments *args)
 {
     const struct irb_tracer *tracer = args->geometryUserPtr;
     const struct RTCHit *hit = (const void *)args->hit;
-    if (args->valid[0] == -1 && !surface_is_there(&tracer->surfaces,
-                                                  tracer->triangle_of[MASKED][hit->primID], hit->u,
-                                                  hit->v))
+    if (args->valid[0] == -1 &&
+        !surface_is_there(&tracer->surfaces, tracer->triangle_of[MASKED][hit->primID], hit->u,
+                          hit->v))
         args->valid[0] = 0;
 }
 

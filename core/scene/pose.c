@@ -106,8 +106,8 @@ static void turn_and_scale(const double degrees[3], const double scale[3], doubl
     for (int column = 0; column < 3; column++)
         for (int row = 0; row < 3; row++)
             out[4 * column + row] =
-                scale[column] * (c * (row == column) + (1 - c) * axis[row] * axis[column] +
-                                 s * cross[column][row]);
+                scale[column] *
+                (c * (row == column) + (1 - c) * axis[row] * axis[column] + s * cross[column][row]);
 }
 
 /* Rest position -> current position. */

@@ -20,19 +20,19 @@ struct irb_pose_key {
 
 /* Moves every object of that name: scaled, turned about `pivot`, then moved. */
 struct irb_object_script {
-    char *name;       /* owned */
-    char *place;      /* "FILE:LINE:COLUMN" for messages, or NULL; owned */
-    bool has_pivot;   /* else: the centre of the bounds at rest of all objects of that name */
-    float pivot[3];   /* m, world */
+    char *name;     /* owned */
+    char *place;    /* "FILE:LINE:COLUMN" for messages, or NULL; owned */
+    bool has_pivot; /* else: the centre of the bounds at rest of all objects of that name */
+    float pivot[3]; /* m, world */
     enum irb_interpolation interpolation;
     struct irb_pose_key *keys; /* owned */
     int key_count;
 };
 
 struct irb_poses {
-    bool plays;          /* the file's own animation: frame i is shown at start + i/fps */
-    float fps, start;    /* 1/s, above 0; s */
-    char *place;         /* of the above, for messages, or NULL; owned */
+    bool plays;       /* the file's own animation: frame i is shown at start + i/fps */
+    float fps, start; /* 1/s, above 0; s */
+    char *place;      /* of the above, for messages, or NULL; owned */
     struct irb_object_script *objects; /* owned */
     int object_count;
 };

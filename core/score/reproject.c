@@ -87,9 +87,9 @@ static bool in_box(const struct irb_moved_object *object, int frame, const float
         double size = fabs((double)object->low[i]) + fabs((double)object->high[i]);
         double p = m[i] * position[0] + m[4 + i] * position[1] + m[8 + i] * position[2] + m[12 + i];
         /* the rounding of the way there and back scales with the largest of its terms */
-        double margin = box_margin * (size + fabs(m[i] * position[0]) +
-                                      fabs(m[4 + i] * position[1]) + fabs(m[8 + i] * position[2]) +
-                                      fabs(m[12 + i]));
+        double margin =
+            box_margin * (size + fabs(m[i] * position[0]) + fabs(m[4 + i] * position[1]) +
+                          fabs(m[8 + i] * position[2]) + fabs(m[12 + i]));
         if (p < object->low[i] - margin || p > object->high[i] + margin)
             return false;
     }

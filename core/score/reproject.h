@@ -19,9 +19,9 @@ struct irb_reprojection {
 
 /* An object whose transform differs between the two frames. */
 struct irb_moved_object {
-    float low[3], high[3];  /* bounds at rest, m */
-    double to_rest[2][16];  /* world -> rest in the previous and the current frame; column-major */
-    bool visible[2];        /* false: flattened there, and the matrix means nothing */
+    float low[3], high[3]; /* bounds at rest, m */
+    double to_rest[2][16]; /* world -> rest in the previous and the current frame; column-major */
+    bool visible[2];       /* false: flattened there, and the matrix means nothing */
 };
 
 /* A pixel is found again when the previous frame's nearest pixel shows a point within 1 % of its

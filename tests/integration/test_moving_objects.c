@@ -24,10 +24,9 @@ static char *folder;
 /* Square of half size 1; floor four times as large; the plate rises from y = 1 to 2 in 2 s. */
 static void write_scene(void)
 {
-    static const float data[] = {-1, 0, -1, -1, 0, 1, 1,  0, 1, /* positions */
-                                 -1, 0, -1, 1,  0, 1, 1,  0, -1,
-                                 0,  2,                     /* times */
-                                 0,  1, 0,  0,  2, 0};      /* translations */
+    static const float data[] = {-1, 0, -1, -1, 0, 1, 1, 0, 1,        /* positions */
+                                 -1, 0, -1, 1,  0, 1, 1, 0, -1, 0, 2, /* times */
+                                 0,  1, 0,  0,  2, 0};                /* translations */
     static const char down[] = "\"rotation\":[-0.70710678,0,0,0.70710678]";
     struct irb_error err = {0};
     char *path = irb_asprintf("%s/plate.gltf", folder), *bin = irb_asprintf("%s/a.bin", folder);
@@ -208,9 +207,10 @@ static void unknown_names_are_refused(void **state)
     expect_refused("scene: plate.gltf\ncamera: {name: Ear}\ntrials: [rsm]\n",
                    "c.yaml:2:9: camera: the file of scene plate has none called 'Ear'; there are "
                    "'Eye'");
-    expect_refused("scene: plate.gltf\nobjects: [{name: plaet, keys: [{frame: 0}]}]\n"
-                   "trials: [rsm]\n",
-                   "c.yaml:2:18: objects: scene plate has no object 'plaet'; did you mean 'plate'?");
+    expect_refused(
+        "scene: plate.gltf\nobjects: [{name: plaet, keys: [{frame: 0}]}]\n"
+        "trials: [rsm]\n",
+        "c.yaml:2:18: objects: scene plate has no object 'plaet'; did you mean 'plate'?");
 }
 
 /* ---- Keyframed transforms ---- */
@@ -350,8 +350,7 @@ static void masks_cut_camera_lamp_and_rays(void **state)
     struct fixture_frame f = {0};
     open_masked(&f, masked_scene(255, 0, 0.5f));
     require_all(&f, -plate_half, 0, 1);
-    struct irb_gbuffer *slim =
-        irb_gbuffer_create_layout(gl, IRB_LAYOUT_SLIM, WIDTH, HEIGHT, &err);
+    struct irb_gbuffer *slim = irb_gbuffer_create_layout(gl, IRB_LAYOUT_SLIM, WIDTH, HEIGHT, &err);
     REQUIRE_OK(slim);
     struct irb_rsm *slim_rsm = irb_rsm_create_layout(gl, IRB_LAYOUT_SLIM, RESOLUTION, &err);
     REQUIRE_OK(slim_rsm);
