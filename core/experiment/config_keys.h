@@ -71,11 +71,11 @@
 
 /* Instead of keys: what the scene's glTF file brings. */
 #define IRB_CONFIG_CAMERA_OF_FILE(X)                                                               \
-    X("name", "text", "camera of the glTF file that is taken, with near and far alone beside it; " \
-                      "its first one by default")
+    X("name", "text", "camera of the glTF file that is taken, where it is at rest; near and far "   \
+                      "alone may stand beside it; the file's first one by default")
 #define IRB_CONFIG_LIGHT_OF_FILE(X)                                                                \
-    X("name", "text", "light of the glTF file that is taken, with beam_half_width alone beside "   \
-                      "it; its first one by default")
+    X("name", "text", "light of the glTF file that is taken, where it is at rest; "                \
+                      "beam_half_width alone may stand beside it; the file's first one by default")
 
 #define IRB_CONFIG_ANIMATION_KEYS(X)                                                               \
     X("fps", "number, 1/s", "frames a second: frame i shows the animation at start + i/fps; 24 by " \

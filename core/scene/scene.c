@@ -78,8 +78,10 @@ static void hash_material(struct irb_hash *hash, const struct irb_material *mate
     irb_hash_floats(hash, material->specular, 3);
     irb_hash_floats(hash, &material->exponent, 1);
     irb_hash_u64(hash, (uint64_t)(material->diffuse_texture + 1));
-    if (material->alpha_cutoff > 0)
+    if (material->alpha_cutoff > 0) {
+        irb_hash_string(hash, "mask"); /* references from before masks were traced are others */
         irb_hash_floats(hash, &material->alpha_cutoff, 1);
+    }
 }
 
 static void hash_object(struct irb_hash *hash, const struct irb_object *object)
