@@ -4,7 +4,7 @@
  */
 #include "core/cli/cli.h"
 #include "core/cli/markdown.h"
-#include "core/experiment/config.h"
+#include "core/config/config.h"
 #include "core/scene/builtin.h"
 #include "core/score/metric_list.h"
 

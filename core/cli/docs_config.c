@@ -4,8 +4,8 @@
  */
 #include "core/cli/docs.h"
 #include "core/cli/markdown.h"
-#include "core/experiment/config.h"
-#include "core/experiment/config_keys.h"
+#include "core/config/config.h"
+#include "core/config/keys.h"
 
 #include <stdlib.h>
 

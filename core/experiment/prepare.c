@@ -6,7 +6,7 @@
 #include "core/base/clock.h"
 #include "core/base/fs.h"
 #include "core/experiment/paths.h"
-#include "core/experiment/run.h"
+#include "core/experiment/prepare.h"
 #include "core/frame/gbuffer.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #ifndef IRB_EXPERIMENT_PROVENANCE_H
 #define IRB_EXPERIMENT_PROVENANCE_H
 
-#include "core/experiment/run.h"
+#include "core/experiment/stage.h"
 
 /* Version, git commit, config key and text, command line, CPU, threads, date. */
 bool irb_provenance_store_host(struct irb_run *run, struct irb_error *err);

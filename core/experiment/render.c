@@ -8,7 +8,7 @@
 #include "core/experiment/frame_file.h"
 #include "core/experiment/paths.h"
 #include "core/experiment/provenance.h"
-#include "core/experiment/run.h"
+#include "core/experiment/render.h"
 #include "core/frame/direct.h"
 #include "core/image/exr.h"
 

@@ -5,7 +5,7 @@
 #ifndef IRB_EXPERIMENT_RUN_TRIALS_H
 #define IRB_EXPERIMENT_RUN_TRIALS_H
 
-#include "core/experiment/run.h"
+#include "core/experiment/stage.h"
 
 /* Sets trials and trial_count of *selected, a copy of *config; the seeds of a trial follow one
  * another. Parameters and names are borrowed from *config. IRB_E_USAGE for a name in --only that

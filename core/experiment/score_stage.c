@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/experiment/keep.h"
 #include "core/experiment/score_frame.h"
+#include "core/experiment/score_stage.h"
 #include "core/experiment/paths.h"
 #include "core/score/metrics.h"
 

@@ -6,7 +6,7 @@
 #ifndef IRB_EXPERIMENT_SEQUENCE_H
 #define IRB_EXPERIMENT_SEQUENCE_H
 
-#include "core/experiment/config.h"
+#include "core/config/config.h"
 #include "core/score/reproject.h"
 
 struct irb_sequence_frame {

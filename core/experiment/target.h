@@ -6,7 +6,7 @@
 #ifndef IRB_EXPERIMENT_TARGET_H
 #define IRB_EXPERIMENT_TARGET_H
 
-#include "core/experiment/run.h"
+#include "core/experiment/stage.h"
 #include "core/score/display.h"
 #include "core/score/flip.h"
 #include "core/score/lag.h"

@@ -16,7 +16,7 @@
 #ifndef IRB_REPORT_TABLE_H
 #define IRB_REPORT_TABLE_H
 
-#include "core/experiment/store.h"
+#include "core/store/store.h"
 
 #include <stdio.h>
 

@@ -6,7 +6,7 @@
 #ifndef IRB_REPORT_TABLE_DATA_H
 #define IRB_REPORT_TABLE_DATA_H
 
-#include "core/experiment/store.h"
+#include "core/store/store.h"
 #include "core/score/metric_list.h"
 
 struct irb_table_row {

@@ -4,7 +4,7 @@
  * config, metric, scene, method, parameter of a method and exit status says in words what it is.
  */
 #include "core/cli/docs.h"
-#include "core/experiment/config.h"
+#include "core/config/config.h"
 #include "core/scene/builtin.h"
 #include "core/score/metric_list.h"
 #include "tests/support/compare.h"

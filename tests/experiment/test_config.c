@@ -3,7 +3,7 @@
  * Configs that are right: every value arrives where it belongs.
  */
 #include "core/base/fs.h"
-#include "core/experiment/config.h"
+#include "core/config/config.h"
 #include "tests/support/compare.h"
 
 #include "tests/experiment/mock_methods.h"

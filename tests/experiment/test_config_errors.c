@@ -4,7 +4,7 @@
  */
 #include "core/base/fs.h"
 #include "core/base/str.h"
-#include "core/experiment/config.h"
+#include "core/config/config.h"
 #include "tests/support/compare.h"
 
 #include "tests/experiment/mock_methods.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/experiment/store.h"
+#include "core/store/store.h"
 #include "tests/support/compare.h"
 
 #include <sqlite3.h>

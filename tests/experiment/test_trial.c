@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/experiment/config.h"
+#include "core/config/config.h"
 #include "tests/support/compare.h"
 
 #include "tests/experiment/mock_methods.h"

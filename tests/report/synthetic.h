@@ -5,7 +5,7 @@
 #ifndef IRB_TESTS_REPORT_SYNTHETIC_H
 #define IRB_TESTS_REPORT_SYNTHETIC_H
 
-#include "core/experiment/store.h"
+#include "core/store/store.h"
 
 /* Fills a new store in `folder`; NULL with *err on failure. Two scenes, whose trials are stored
  * alternately:

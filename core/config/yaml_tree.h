@@ -6,8 +6,8 @@
  *
  * Does not: know what a key means.
  */
-#ifndef IRB_EXPERIMENT_YAML_TREE_H
-#define IRB_EXPERIMENT_YAML_TREE_H
+#ifndef IRB_YAML_TREE_H
+#define IRB_YAML_TREE_H
 
 #include "core/base/error.h"
 

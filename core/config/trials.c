@@ -4,8 +4,8 @@
  * stand for many trials: see sweep.h.
  */
 #include "core/base/str.h"
-#include "core/experiment/config_parts.h"
-#include "core/experiment/sweep.h"
+#include "core/config/parts.h"
+#include "core/config/sweep.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,8 +5,8 @@
  *
  * X(key, value that is expected, one line)
  */
-#ifndef IRB_EXPERIMENT_CONFIG_KEYS_H
-#define IRB_EXPERIMENT_CONFIG_KEYS_H
+#ifndef IRB_CONFIG_KEYS_H
+#define IRB_CONFIG_KEYS_H
 
 #define IRB_CONFIG_TOP_KEYS(X)                                                                     \
     X("name", "text", "name of the run's folder and of its reports; the file's name by default")   \

@@ -4,8 +4,8 @@
  * it from the key before it; the first key takes it from the built-in scene's own view.
  */
 #include "core/base/str.h"
-#include "core/experiment/config_keys.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/keys.h"
+#include "core/config/parts.h"
 
 #include <float.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
  * the line.
  */
 #include "core/base/str.h"
-#include "core/experiment/config_keys.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/keys.h"
+#include "core/config/parts.h"
 
 #include <float.h>
 #include <math.h>

@@ -3,11 +3,11 @@
  * The parts of the config reader; each reads one section of the file. For config*.c and trial.c
  * only.
  */
-#ifndef IRB_EXPERIMENT_CONFIG_PARTS_H
-#define IRB_EXPERIMENT_CONFIG_PARTS_H
+#ifndef IRB_CONFIG_PARTS_H
+#define IRB_CONFIG_PARTS_H
 
-#include "core/experiment/config.h"
-#include "core/experiment/yaml_tree.h"
+#include "core/config/config.h"
+#include "core/config/yaml_tree.h"
 
 /* Names become file names and table keys. */
 enum { IRB_LONGEST_NAME = 64 };

@@ -4,8 +4,8 @@
  * command line, and the key of all of it.
  */
 #include "core/base/str.h"
-#include "core/experiment/config_keys.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/keys.h"
+#include "core/config/parts.h"
 #include "core/frame/layout.h"
 
 #include <stdlib.h>

@@ -7,8 +7,8 @@
  *       - {name: door, box: [120, 40, 160, 128]}
  */
 #include "core/base/str.h"
-#include "core/experiment/config_keys.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/keys.h"
+#include "core/config/parts.h"
 
 #include <math.h>
 #include <stdlib.h>

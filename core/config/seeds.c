@@ -3,7 +3,7 @@
  * `seed:` and `seeds:`: one seed, a list of them, or how many (5 means 1, 2, 3, 4, 5).
  */
 #include "core/base/str.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/parts.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  * The name of a trial, "method:option=value:option=value", as it is parsed and printed.
  */
 #include "core/base/str.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/parts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,8 +4,8 @@
  * to render, reference and score them. Read from YAML; every error names file, line and column,
  * and the nearest valid key.
  */
-#ifndef IRB_EXPERIMENT_CONFIG_H
-#define IRB_EXPERIMENT_CONFIG_H
+#ifndef IRB_CONFIG_CONFIG_H
+#define IRB_CONFIG_CONFIG_H
 
 #include "core/base/error.h"
 #include "core/base/log.h"

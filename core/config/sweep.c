@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/experiment/sweep.h"
+#include "core/config/sweep.h"
 #include "core/base/str.h"
 
 #include <stdlib.h>

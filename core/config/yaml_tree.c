@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/experiment/yaml_tree.h"
+#include "core/config/yaml_tree.h"
 #include "core/base/fs.h"
 #include "core/base/str.h"
 

@@ -4,8 +4,8 @@
  * views of it. Every frame is one transaction, so that a killed run leaves whole frames only.
  * A second process may read while a run writes (WAL).
  */
-#ifndef IRB_EXPERIMENT_STORE_H
-#define IRB_EXPERIMENT_STORE_H
+#ifndef IRB_STORE_H
+#define IRB_STORE_H
 
 #include "core/base/error.h"
 

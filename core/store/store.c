@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/experiment/store.h"
+#include "core/store/store.h"
 #include "core/base/fs.h"
 #include "core/base/str.h"
 

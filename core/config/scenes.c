@@ -4,8 +4,8 @@
  */
 #include "core/base/fs.h"
 #include "core/base/str.h"
-#include "core/experiment/config_keys.h"
-#include "core/experiment/config_parts.h"
+#include "core/config/keys.h"
+#include "core/config/parts.h"
 #include "core/scene/builtin.h"
 
 #include <ctype.h>

@@ -8,10 +8,10 @@
  *     - rsm: {mode: uniform, samples: [100, 400, 1600]}
  *     - rsm: {clamp: 10, matrix: [{mode: uniform, samples: 100}, {mode: all}]}
  */
-#ifndef IRB_EXPERIMENT_SWEEP_H
-#define IRB_EXPERIMENT_SWEEP_H
+#ifndef IRB_SWEEP_H
+#define IRB_SWEEP_H
 
-#include "core/experiment/config_parts.h"
+#include "core/config/parts.h"
 
 /* Gets each trial in turn and owns it from then on, also where it fails. */
 typedef bool (*irb_sweep_fn)(void *user, struct irb_trial *trial, struct irb_error *err);
