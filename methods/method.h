@@ -38,9 +38,9 @@ struct irb_frame_inputs {
     const struct irb_camera *camera;
     const struct irb_gbuffer *gbuffer;
     const struct irb_rsm *rsm;
-    int frame;            /* 0.. in the sequence; settle frames are negative */
-    uint64_t seed;        /* of the sequence; the same in all its frames */
-    const void *params;   /* the method's own parameter struct, resolved; may change per frame */
+    int frame;               /* 0.. in the sequence; settle frames are negative */
+    uint64_t seed;           /* of the sequence; the same in all its frames */
+    const void *params;      /* the method's own parameter struct, resolved; may change per frame */
     struct irb_timer *timer; /* begin/end with an index into `stages`; may be NULL */
 };
 
@@ -65,18 +65,18 @@ struct irb_frame_output {
 };
 
 struct irb_method {
-    int abi;                      /* IRB_METHOD_ABI */
-    const char *name;             /* "rsm": config key and folder name */
-    const char *title;            /* "Reflective shadow maps" */
-    const char *citation;         /* authors, title, venue, year */
-    const char *path_classes;     /* Heckbert's notation of what it adds, "LDDE" */
-    bool claims_visibility;       /* false: it does not model indirect visibility; its own claim is
-                                     then scored against the reference without it */
-    unsigned needs;               /* enum irb_method_needs */
-    size_t params_size;           /* of its parameter struct */
+    int abi;                  /* IRB_METHOD_ABI */
+    const char *name;         /* "rsm": config key and folder name */
+    const char *title;        /* "Reflective shadow maps" */
+    const char *citation;     /* authors, title, venue, year */
+    const char *path_classes; /* Heckbert's notation of what it adds, "LDDE" */
+    bool claims_visibility;   /* false: it does not model indirect visibility; its own claim is
+                                 then scored against the reference without it */
+    unsigned needs;           /* enum irb_method_needs */
+    size_t params_size;       /* of its parameter struct */
     const struct irb_option *params; /* ended by IRB_OPTION_END */
-    const char *const *stages;    /* names for timing, NULL-terminated, at most 24;
-                                     not gbuffer, rsm or direct, which the core times */
+    const char *const *stages;       /* names for timing, NULL-terminated, at most 24;
+                                        not gbuffer, rsm or direct, which the core times */
 
     /* State for one trial, for images of width x height. NULL on failure. */
     void *(*create)(struct irb_gl *gl, const struct irb_scene_gl *scene, int width, int height,

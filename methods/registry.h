@@ -4,7 +4,8 @@
 
 #include "methods/method.h"
 
-/* Stages that the core times itself, in the order of a frame; a method's stages have other names. */
+/* Stages that the core times itself, in the order of a frame; a method's stages have other names.
+ */
 enum irb_core_stage { IRB_CORE_GBUFFER, IRB_CORE_RSM, IRB_CORE_DIRECT, IRB_CORE_STAGE_COUNT };
 extern const char *const irb_core_stages[]; /* NULL-terminated */
 

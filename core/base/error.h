@@ -34,7 +34,8 @@ struct irb_error {
     char message[1024];
 };
 
-/* Fills *err (which may be NULL) and returns false, so that `return irb_fail(err, ...)` reads well. */
+/* Fills *err (which may be NULL) and returns false, so that `return irb_fail(err, ...)` reads well.
+ */
 bool irb_fail(struct irb_error *err, enum irb_error_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -37,8 +37,7 @@ bool irb_fs_make_dirs(const char *path, struct irb_error *err)
     return ok;
 }
 
-bool irb_fs_read(const char *path, size_t max_size, char **out, size_t *size,
-                 struct irb_error *err)
+bool irb_fs_read(const char *path, size_t max_size, char **out, size_t *size, struct irb_error *err)
 {
     FILE *file = fopen(path, "rb");
     struct stat info;

@@ -47,7 +47,8 @@ void irb_log_error(struct irb_log *log, const struct irb_error *err);
 void irb_log_done(struct irb_log *log, const char *run);
 
 /* Shows "what 37 % 0:12 left"; in place on a terminal (at most 10 a second), else a plain line at
- * most every 5 seconds, as JSON every half second and when it is complete. fraction in [0,1]; elapsed_s since the work began, for the time left. */
+ * most every 5 seconds, as JSON every half second and when it is complete. fraction in [0,1];
+ * elapsed_s since the work began, for the time left. */
 void irb_log_progress(struct irb_log *log, const char *what, double fraction, double elapsed_s);
 
 /* Clears the bar, if one is shown. */

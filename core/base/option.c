@@ -191,8 +191,7 @@ void irb_options_print_changed(const struct irb_option *options, const void *set
     }
 }
 
-void irb_options_hash(const struct irb_option *options, const void *settings,
-                      struct irb_hash *hash)
+void irb_options_hash(const struct irb_option *options, const void *settings, struct irb_hash *hash)
 {
     struct irb_str text = {0};
     for (const struct irb_option *o = options; o->name; o++) {

@@ -41,6 +41,8 @@ struct irb_option {
     const char *source;         /* paper, section, equation; or "ours" */
 };
 
+/* it takes the braces below for blocks */
+/* clang-format off */
 #define IRB_OPTION_BOOL(T, field, def, doc, source)                                                \
     {#field, IRB_TYPE_BOOL, offsetof(T, field), def, 0, 1, NULL, "", doc, source}
 #define IRB_OPTION_INT(T, field, def, min, max, unit, doc, source)                                 \
@@ -51,6 +53,7 @@ struct irb_option {
     {#field, IRB_TYPE_ENUM, offsetof(T, field), def, 0, 0, choices, "", doc, source}
 #define IRB_OPTION_END                                                                             \
     {NULL, IRB_TYPE_END, 0, 0, 0, 0, NULL, NULL, NULL, NULL}
+/* clang-format on */
 
 /* Sets every field to its default. */
 void irb_options_default(const struct irb_option *options, void *settings);
@@ -58,8 +61,8 @@ void irb_options_default(const struct irb_option *options, void *settings);
 /* NULL when there is none of that name. */
 const struct irb_option *irb_option_find(const struct irb_option *options, const char *name);
 
-/* Parses `text` into the field. IRB_E_INPUT names the option, the range or the choices, and what was found; an
- * unknown name gets the nearest valid one. */
+/* Parses `text` into the field. IRB_E_INPUT names the option, the range or the choices, and what
+ * was found; an unknown name gets the nearest valid one. */
 bool irb_option_set(const struct irb_option *options, void *settings, const char *name,
                     const char *text, struct irb_error *err);
 

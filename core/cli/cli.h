@@ -29,20 +29,20 @@ struct irb_cli {
     int override_count;
     const char *only[IRB_CLI_MAX_ARGUMENTS]; /* --only, trial names */
     int only_count;
-    char *seed;              /* owned: the override that --seed became */
+    char *seed; /* owned: the override that --seed became */
     struct irb_cli_bound bounds[IRB_CLI_MAX_ARGUMENTS];
     int bound_count;
-    const char *layer;       /* --layer */
-    const char *out;         /* --out, NULL = default */
-    const char *shader_dir;  /* --shader-dir */
-    const char *format;      /* --format, NULL = text */
+    const char *layer;      /* --layer */
+    const char *out;        /* --out, NULL = default */
+    const char *shader_dir; /* --shader-dir */
+    const char *format;     /* --format, NULL = text */
     enum irb_backend backend;
-    int threads;             /* --threads, 0 = all cores */
-    unsigned stages;         /* --stage, all by default */
+    int threads;     /* --threads, 0 = all cores */
+    unsigned stages; /* --stage, all by default */
     bool keep_all, key;
-    bool per_seed;           /* --per-seed */
-    char *run_dir;           /* owned: where a command has left results, else NULL */
-    char *command_line;      /* owned: as it was given, for provenance */
+    bool per_seed;      /* --per-seed */
+    char *run_dir;      /* owned: where a command has left results, else NULL */
+    char *command_line; /* owned: as it was given, for provenance */
     struct irb_log log;
     struct irb_registry registry;
     const volatile sig_atomic_t *stop;
@@ -65,8 +65,8 @@ struct irb_command {
     const char *name;
     const char *arguments; /* "CONFIG" */
     int min_arguments, max_arguments;
-    const char *doc;       /* one line */
-    const char *help;      /* details and examples */
+    const char *doc;  /* one line */
+    const char *help; /* details and examples */
     irb_command_fn run;
 };
 extern const struct irb_command irb_commands[]; /* ended by a NULL name */

@@ -28,14 +28,16 @@ const struct irb_command irb_commands[] = {
     {"show", "NAME", 1, 1, "show a method's parameters, a scene's source or a config as resolved",
      "\n  irbench show rsm\n  irbench show cornell\n  irbench show experiments/quick.yaml\n",
      irb_command_show},
-    {"docs", "SUBJECT", 1, 1, "print a reference as Markdown: config, cli, metrics, methods or scenes",
+    {"docs", "SUBJECT", 1, 1,
+     "print a reference as Markdown: config, cli, metrics, methods or scenes",
      "\nMade from the tables that the program itself works with; docs/ holds what it prints.\n\n"
      "  irbench docs config\n",
      irb_command_docs},
     {"inspect", "SCENE", 1, 1, "say what a scene file or built-in holds",
      "\n  irbench inspect cornell\n  irbench inspect sibenik.glb\n", irb_command_inspect},
     {"compare", "IMAGE REFERENCE", 2, 2, "every image metric between two image files",
-     "\nOpenEXR files, or any image that OpenImageIO reads. Two files of a display-referred format\n"
+     "\nOpenEXR files, or any image that OpenImageIO reads. Two files of a display-referred "
+     "format\n"
      "(PNG, JPEG, ...) are compared as they are shown; all others hold radiance, which SSIM and\n"
      "LDR-FLIP see tone-mapped at an exposure from the reference. --max and --min bound the\n"
      "metrics by the values printed: the exit status is 1 where one does not hold, or is not\n"

@@ -93,8 +93,14 @@ bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err)
 {
     struct irb_gl_desc desc = {.backend = cli->backend, .log = &cli->log};
     printf("irbench %s\n", IRB_VERSION);
-    printf("reference (Embree): %s\n", IRB_HAVE_REFERENCE ? "built in" : "left out of this build; apt install libembree-dev and build again");
-    printf("images (OpenImageIO, glTF): %s\n", IRB_HAVE_IMAGES ? "built in" : "left out of this build; apt install libopenimageio-dev libtinygltf-dev and build again");
+    printf("reference (Embree): %s\n",
+           IRB_HAVE_REFERENCE
+               ? "built in"
+               : "left out of this build; apt install libembree-dev and build again");
+    printf("images (OpenImageIO, glTF): %s\n",
+           IRB_HAVE_IMAGES ? "built in"
+                           : "left out of this build; apt install libopenimageio-dev "
+                             "libtinygltf-dev and build again");
     if (irb_gl_doctor(stdout, &desc))
         return true;
     return irb_fail(err, IRB_E_BACKEND, "no usable OpenGL 4.5 backend; see the lines above");

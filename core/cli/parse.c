@@ -60,8 +60,10 @@ static bool set_stage(struct irb_cli *cli, const char *value, struct irb_error *
     static const struct {
         const char *name;
         unsigned stages;
-    } stages[] = {{"prepare", IRB_STAGE_PREPARE}, {"render", IRB_STAGE_RENDER},
-                  {"score", IRB_STAGE_SCORE}, {"all", IRB_STAGE_ALL}};
+    } stages[] = {{"prepare", IRB_STAGE_PREPARE},
+                  {"render", IRB_STAGE_RENDER},
+                  {"score", IRB_STAGE_SCORE},
+                  {"all", IRB_STAGE_ALL}};
     for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
         if (!strcmp(stages[i].name, value)) {
             cli->stages = stages[i].stages;

@@ -128,8 +128,8 @@ static bool read_reference(struct irb_config *config, struct irb_yaml *yaml, irb
 static bool read_settings(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node root,
                           struct irb_error *err)
 {
-    static const char *const elsewhere[] = {"scenes",  "scene",   "camera",  "light", "animation",
-                                            "objects", "regions", "trials"};
+    static const char *const elsewhere[] = {"scenes",    "scene",   "camera",  "light",
+                                            "animation", "objects", "regions", "trials"};
     irb_yaml_node resolution = irb_yaml_find(yaml, root, "resolution");
     for (int i = 0; i < irb_yaml_pairs(root); i++) {
         irb_yaml_node value = irb_yaml_value(yaml, root, i);

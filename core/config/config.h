@@ -16,14 +16,14 @@
 
 /* Scalar settings at the top of a config and in its sections; declared as options. */
 struct irb_render_settings {
-    int width, height;   /* pixels: `resolution: [w, h]` */
-    int frames;          /* scored frames */
-    int settle;          /* unscored frames at the first pose (design: 16 for all methods) */
-    int rsm_resolution;  /* texels a side */
-    int gbuffer_layout;  /* enum irb_layout: what methods are given */
-    int rsm_layout;      /* enum irb_layout: what methods are given */
-    float exposure;      /* of previews, a factor on radiance; 0 = from the reference */
-    int repeats;         /* timed repeats of the sequence */
+    int width, height;  /* pixels: `resolution: [w, h]` */
+    int frames;         /* scored frames */
+    int settle;         /* unscored frames at the first pose (design: 16 for all methods) */
+    int rsm_resolution; /* texels a side */
+    int gbuffer_layout; /* enum irb_layout: what methods are given */
+    int rsm_layout;     /* enum irb_layout: what methods are given */
+    float exposure;     /* of previews, a factor on radiance; 0 = from the reference */
+    int repeats;        /* timed repeats of the sequence */
 };
 extern const struct irb_option irb_render_options[];
 
@@ -36,24 +36,24 @@ struct irb_region {
 enum { IRB_MOST_REGIONS = 16 }; /* of a scene */
 
 struct irb_scene_entry {
-    char *name;                     /* key in tables: the built-in's name or the file's stem */
-    char *source;                   /* built-in name or path, ${VARIABLES} expanded */
-    struct irb_animation animation; /* from the config, else the built-in's view; no light or
-                                       camera keys where the file's own are taken */
-    char *light_name, *camera_name; /* of the file's own; NULL = its first one */
+    char *name;                       /* key in tables: the built-in's name or the file's stem */
+    char *source;                     /* built-in name or path, ${VARIABLES} expanded */
+    struct irb_animation animation;   /* from the config, else the built-in's view; no light or
+                                         camera keys where the file's own are taken */
+    char *light_name, *camera_name;   /* of the file's own; NULL = its first one */
     char *light_place, *camera_place; /* "FILE:LINE:COLUMN", for messages */
-    struct irb_poses poses;         /* how objects move */
-    struct irb_region *regions;     /* owned */
+    struct irb_poses poses;           /* how objects move */
+    struct irb_region *regions;       /* owned */
     int region_count;
 };
 
 struct irb_trial {
     const struct irb_method *method;
-    void *params;  /* the method's parameter struct; owned */
-    char *name;    /* "rsm:mode=importance:samples=400": only what differs from the defaults */
+    void *params; /* the method's parameter struct; owned */
+    char *name;   /* "rsm:mode=importance:samples=400": only what differs from the defaults */
     /* Set by a run, which takes each trial of a config once for each seed: */
     int seed;
-    char *folder;  /* of its files, below the scene's: NAME, or NAME/seed-2 with several seeds */
+    char *folder; /* of its files, below the scene's: NAME, or NAME/seed-2 with several seeds */
 };
 
 enum {
@@ -62,8 +62,8 @@ enum {
 };
 
 struct irb_config {
-    char *path;                       /* where it was read */
-    char *name;                       /* `name:`, else the file's stem */
+    char *path; /* where it was read */
+    char *name; /* `name:`, else the file's stem */
     struct irb_render_settings render;
     struct irb_reference_settings reference;
     int seeds[IRB_MOST_SEEDS]; /* every trial is run with each of them; one by default */
@@ -81,8 +81,8 @@ bool irb_config_load(struct irb_config *config, const char *path, const char *co
 void irb_config_destroy(struct irb_config *config);
 
 /* Parses "method:option=value:option=value" into a trial. */
-bool irb_trial_parse(struct irb_trial *trial, const char *text,
-                     const struct irb_registry *registry, struct irb_error *err);
+bool irb_trial_parse(struct irb_trial *trial, const char *text, const struct irb_registry *registry,
+                     struct irb_error *err);
 void irb_trial_destroy(struct irb_trial *trial);
 
 /* The region in pixels of a width x height image: x0, y0, x1, y1, the last two exclusive. Fractions

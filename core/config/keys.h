@@ -16,7 +16,8 @@
     X("resolution", "[width, height]", "of the images, pixels")                                    \
     X("reference", "map", "how the ray-traced reference is made")                                  \
     X("scenes", "list of maps", "scenes, each with its view and script")                           \
-    X("scene", "text", "instead of scenes, with camera, light and regions beside it: the only one") \
+    X("scene", "text",                                                                             \
+      "instead of scenes, with camera, light and regions beside it: the only one")                 \
     X("camera", "map", "of the only scene")                                                        \
     X("light", "map", "of the only scene")                                                         \
     X("animation", "map", "of the only scene")                                                     \
@@ -28,8 +29,9 @@
     X("scene", "text",                                                                             \
       "name of a built-in scene, or path of a glTF file, relative to the config; ${NAME} is an "   \
       "environment variable")                                                                      \
-    X("name", "text", "what tables and folders call it; the built-in's or the file's name by "     \
-                      "default")                                                                   \
+    X("name", "text",                                                                              \
+      "what tables and folders call it; the built-in's or the file's name by "                     \
+      "default")                                                                                   \
     X("camera", "map", "a built-in scene has its own; so may a glTF file")                         \
     X("light", "map", "a built-in scene has its own; so may a glTF file")                          \
     X("animation", "map", "plays the glTF file's own animation of its objects")                    \
@@ -71,15 +73,18 @@
 
 /* Instead of keys: what the scene's glTF file brings. */
 #define IRB_CONFIG_CAMERA_OF_FILE(X)                                                               \
-    X("name", "text", "camera of the glTF file that is taken, where it is at rest; near and far "   \
-                      "alone may stand beside it; the file's first one by default")
+    X("name", "text",                                                                              \
+      "camera of the glTF file that is taken, where it is at rest; near and far "                  \
+      "alone may stand beside it; the file's first one by default")
 #define IRB_CONFIG_LIGHT_OF_FILE(X)                                                                \
-    X("name", "text", "light of the glTF file that is taken, where it is at rest; "                \
-                      "beam_half_width alone may stand beside it; the file's first one by default")
+    X("name", "text",                                                                              \
+      "light of the glTF file that is taken, where it is at rest; "                                \
+      "beam_half_width alone may stand beside it; the file's first one by default")
 
 #define IRB_CONFIG_ANIMATION_KEYS(X)                                                               \
-    X("fps", "number, 1/s", "frames a second: frame i shows the animation at start + i/fps; 24 by " \
-                            "default")                                                             \
+    X("fps", "number, 1/s",                                                                        \
+      "frames a second: frame i shows the animation at start + i/fps; 24 by "                      \
+      "default")                                                                                   \
     X("start", "number, s", "where frame 0 and the settle frames are; 0 by default")
 
 /* What is said once of an object, and what each of its keys may say. */

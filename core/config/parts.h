@@ -31,7 +31,8 @@ bool irb_config_read_poses(struct irb_scene_entry *entry, struct irb_yaml *yaml,
                            irb_yaml_node scene, bool builtin, struct irb_error *err);
 void irb_config_hash_poses(const struct irb_poses *poses, struct irb_hash *hash);
 
-/* `regions:` of `scene` (config_regions.c). The boxes are checked against the resolution later, once
+/* `regions:` of `scene` (config_regions.c). The boxes are checked against the resolution later,
+ * once
  * --set has had its say. */
 bool irb_config_read_regions(struct irb_scene_entry *entry, struct irb_yaml *yaml,
                              irb_yaml_node scene, struct irb_error *err);

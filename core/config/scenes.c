@@ -165,7 +165,8 @@ static bool read_name(struct irb_config *config, struct irb_scene_entry *entry,
     return true;
 }
 
-/* `node` holds the keys scene, camera, light, animation, objects and regions; `name` may be NULL. */
+/* `node` holds the keys scene, camera, light, animation, objects and regions; `name` may be NULL.
+ */
 static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node node,
                        irb_yaml_node name, struct irb_error *err)
 {

@@ -61,8 +61,8 @@ static bool pixel_differs(const float *position_a, const float *normal_a, const 
         return false;
     float apart = hypotf(hypotf(position_a[0] - position_b[0], position_a[1] - position_b[1]),
                          position_a[2] - position_b[2]);
-    float cosine = normal_a[0] * normal_b[0] + normal_a[1] * normal_b[1] +
-                   normal_a[2] * normal_b[2];
+    float cosine =
+        normal_a[0] * normal_b[0] + normal_a[1] * normal_b[1] + normal_a[2] * normal_b[2];
     return !(apart <= tolerance * normal_a[3]) || !(1 - cosine <= tolerance);
 }
 

@@ -37,8 +37,8 @@ static bool flip_map(const struct irb_pair *pair, const struct irb_flip_referenc
 
 /* On one thread: the trials are what runs in parallel. */
 static bool make_maps(struct maps *maps, const struct irb_scored_frame *frame,
-                      const struct irb_target *target,
-                      const struct irb_target_constants *constants, struct irb_error *err)
+                      const struct irb_target *target, const struct irb_target_constants *constants,
+                      struct irb_error *err)
 {
     struct irb_pair indirect = {&frame->indirect, &target->indirect, target->mask};
     struct irb_pair full = {&frame->full, &target->full, target->mask};
@@ -117,10 +117,9 @@ static bool keep_one(void *user, int index, int thread)
     const char *dir = keep->run->dir, *folder = trial->trial->folder;
     char *exr = irb_run_file(dir, trial->scene, folder, "image", kept->frame, "exr");
     char *png = irb_run_file(dir, trial->scene, folder, "image", kept->frame, "png");
-    bool ok =
-        irb_scored_frame_load(&frame, keep->run, trial, kept->frame, &kept->target, err) &&
-        make_maps(&maps, &frame, &kept->target, keep->constants, err) &&
-        write_exr(exr, keep->run, trial, &frame, &kept->target, &maps, err);
+    bool ok = irb_scored_frame_load(&frame, keep->run, trial, kept->frame, &kept->target, err) &&
+              make_maps(&maps, &frame, &kept->target, keep->constants, err) &&
+              write_exr(exr, keep->run, trial, &frame, &kept->target, &maps, err);
     if (ok && IRB_HAVE_IMAGES)
         ok = write_sheet(png, &frame, &kept->target, &maps, keep->constants, err);
     free(png);
@@ -148,8 +147,8 @@ static bool is_kept(const struct irb_keep *keep, int trial, int frame)
     return there;
 }
 
-static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted,
-                       struct irb_error *errs, struct irb_error *err)
+static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted, struct irb_error *errs,
+                       struct irb_error *err)
 {
     struct keep_frame kept = {.keep = keep, .frame = frame, .wanted = wanted, .errs = errs};
     int count = 0;
@@ -161,9 +160,9 @@ static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted,
     if (!irb_target_load(&kept.target, keep->run, keep->sequence, frame, keep->constants, err))
         return false;
     int threads = keep->run->options->threads;
-    bool ok = irb_target_prepare(&kept.target, keep->sequence->entry, keep->constants, threads,
-                                 err) &&
-              irb_parallel_for(count, threads, keep_one, &kept);
+    bool ok =
+        irb_target_prepare(&kept.target, keep->sequence->entry, keep->constants, threads, err) &&
+        irb_parallel_for(count, threads, keep_one, &kept);
     for (int t = 0; !ok && t < keep->trial_count; t++)
         if (errs[t].code != IRB_E_OK && err)
             *err = errs[t];
@@ -193,8 +192,8 @@ bool irb_keep_images(const struct irb_keep *keep, struct irb_error *err)
             remove_frame(keep, i);
     }
     for (int i = 0; ok && i < keep->sequence->frame_count; i++) {
-        char *path = irb_run_file(keep->run->dir, keep->sequence->entry->name, NULL, "direct", i,
-                                  "exr");
+        char *path =
+            irb_run_file(keep->run->dir, keep->sequence->entry->name, NULL, "direct", i, "exr");
         unlink(path);
         free(path);
     }

@@ -19,7 +19,8 @@
 
 #include "core/base/hash.h"
 
-/* $IRBENCH_CACHE, else $XDG_CACHE_HOME/irbench, else $HOME/.cache/irbench, else ./.irbench-cache. */
+/* $IRBENCH_CACHE, else $XDG_CACHE_HOME/irbench, else $HOME/.cache/irbench, else ./.irbench-cache.
+ */
 char *irb_cache_dir(void);
 char *irb_cache_gbuffer(const char *cache, const struct irb_key *key);
 char *irb_cache_reference(const char *cache, const struct irb_key *key);

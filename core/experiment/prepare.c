@@ -32,8 +32,7 @@ static bool prepare_gbuffer(struct irb_run *run, struct irb_gbuffer *gbuffer,
     return ok;
 }
 
-bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence,
-                          struct irb_error *err)
+bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err)
 {
     const struct irb_config *config = run->config;
     if (!irb_run_need_gl(run, err) || !irb_fs_make_dirs(run->cache, err))
@@ -42,7 +41,8 @@ bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence,
     irb_run_work(run, IRB_WORK_REFERENCE);
     struct irb_scene_gl *scene = irb_scene_gl_create(run->gl, sequence->scene, err);
     struct irb_gbuffer *gbuffer =
-        scene ? irb_gbuffer_create(run->gl, config->render.width, config->render.height, err) : NULL;
+        scene ? irb_gbuffer_create(run->gl, config->render.width, config->render.height, err)
+              : NULL;
     bool ok = gbuffer != NULL;
     for (int i = 0; ok && i < sequence->frame_count; i++) {
         struct irb_sequence_frame *frame = &sequence->frames[i];
@@ -51,9 +51,8 @@ bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence,
         else
             ok = prepare_gbuffer(run, gbuffer, scene, sequence, i, err);
         if (ok)
-            frame->reference =
-                irb_reference_key(&frame->scene, &frame->light, &frame->camera, &frame->gbuffer,
-                                  &config->reference);
+            frame->reference = irb_reference_key(&frame->scene, &frame->light, &frame->camera,
+                                                 &frame->gbuffer, &config->reference);
     }
     irb_gbuffer_destroy(gbuffer);
     irb_scene_gl_destroy(scene);
@@ -114,8 +113,8 @@ static bool prepare_tracer(struct irb_sequence *sequence, int frame, struct irb_
     if (*tracer && !strcmp(posed->hex, wanted->hex))
         return true;
     irb_tracer_destroy(*tracer);
-    *tracer = irb_sequence_pose(sequence, frame, err) ? irb_tracer_create(sequence->scene, err)
-                                                      : NULL;
+    *tracer =
+        irb_sequence_pose(sequence, frame, err) ? irb_tracer_create(sequence->scene, err) : NULL;
     *posed = *wanted;
     return *tracer != NULL;
 }
@@ -140,8 +139,8 @@ bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
     for (int i = 0; ok && i < sequence->frame_count; i++) {
         if (!reference_missing(run, &sequence->frames[i])) /* an equal frame may have made it */
             continue;
-        irb_info(run->log, "%s: reference of frame %d (%d missing of %d)", sequence->entry->name,
-                 i, missing - done, sequence->frame_count);
+        irb_info(run->log, "%s: reference of frame %d (%d missing of %d)", sequence->entry->name, i,
+                 missing - done, sequence->frame_count);
         ok = !irb_run_stopped(run, err) && prepare_tracer(sequence, i, &tracer, &posed, err) &&
              prepare_reference(run, tracer, &sequence->frames[i], err);
         done++;

@@ -86,8 +86,8 @@ static bool same_as_before(struct irb_run *run, const struct pair *now, struct i
     bool same = !before || !strcmp(before, now->value);
     if (!same)
         irb_fail(err, IRB_E_USAGE,
-                 "%s: was rendered with another %s ('%s', now '%s'); choose another --out", run->dir,
-                 now->name, before, now->value);
+                 "%s: was rendered with another %s ('%s', now '%s'); choose another --out",
+                 run->dir, now->name, before, now->value);
     free(before);
     return same;
 }
@@ -97,8 +97,10 @@ bool irb_provenance_store_gl(struct irb_run *run, struct irb_error *err)
     char shaders[33];
     irb_shader_hash(run->gl, shaders);
     const struct pair pairs[] = {
-        {"gl_vendor", run->gl->vendor},     {"gl_renderer", run->gl->renderer},
-        {"gl_version", run->gl->version},   {"gl_platform", run->gl->platform},
+        {"gl_vendor", run->gl->vendor},
+        {"gl_renderer", run->gl->renderer},
+        {"gl_version", run->gl->version},
+        {"gl_platform", run->gl->platform},
         {"gl_software", run->gl->software ? "true" : "false"},
         {"shader_hash", shaders},
     };

@@ -86,9 +86,9 @@ static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct 
     struct irb_run *run = scene->run;
     const struct irb_config *config = run->config;
     char *json = params_json(trial->trial);
-    trial->id = irb_store_trial(run->store, scene->sequence->entry->name,
-                                trial->trial->method->name, trial->trial->name, json,
-                                trial->trial->seed, err);
+    trial->id =
+        irb_store_trial(run->store, scene->sequence->entry->name, trial->trial->method->name,
+                        trial->trial->name, json, trial->trial->seed, err);
     free(json);
     if (!trial->id)
         return false;
@@ -147,9 +147,9 @@ static bool open_slim(struct scene_run *scene, struct irb_error *err)
     const struct irb_render_settings *render = &scene->run->config->render;
     struct irb_gl *gl = scene->run->gl;
     return (render->gbuffer_layout == IRB_LAYOUT_FULL ||
-            (scene->slim_gbuffer = irb_gbuffer_create_layout(
-                 gl, (enum irb_layout)render->gbuffer_layout, render->width, render->height,
-                 err))) &&
+            (scene->slim_gbuffer =
+                 irb_gbuffer_create_layout(gl, (enum irb_layout)render->gbuffer_layout,
+                                           render->width, render->height, err))) &&
            (render->rsm_layout == IRB_LAYOUT_FULL ||
             (scene->slim_rsm = irb_rsm_create_layout(gl, (enum irb_layout)render->rsm_layout,
                                                      render->rsm_resolution, err)));
@@ -236,10 +236,8 @@ static bool store_frame(struct scene_run *scene, struct trial_run *trial, int fr
         stages[stage_count++] = (struct irb_store_value){names[i], ms[i]};
     struct irb_store_value statistics[IRB_MAX_STATISTICS + 2];
     int statistic_count = 0;
-    statistics[statistic_count++] =
-        (struct irb_store_value){"lost_energy", output->lost_energy};
-    statistics[statistic_count++] =
-        (struct irb_store_value){"gl_bytes", (double)trial->bytes};
+    statistics[statistic_count++] = (struct irb_store_value){"lost_energy", output->lost_energy};
+    statistics[statistic_count++] = (struct irb_store_value){"gl_bytes", (double)trial->bytes};
     for (int i = 0; i < output->statistic_count; i++)
         statistics[statistic_count++] =
             (struct irb_store_value){output->statistics[i].name, output->statistics[i].value};
@@ -359,8 +357,7 @@ static bool render_frames(struct scene_run *scene, struct irb_error *err)
     return true;
 }
 
-bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence,
-                         struct irb_error *err)
+bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err)
 {
     struct scene_run scene = {.run = run, .sequence = sequence};
     scene.trials = calloc((size_t)run->config->trial_count, sizeof *scene.trials);

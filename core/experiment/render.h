@@ -5,7 +5,6 @@
 #include "core/experiment/stage.h"
 
 /* Renders the frames of every trial that the run lacks. */
-bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence,
-                         struct irb_error *err);
+bool irb_render_sequence(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err);
 
 #endif

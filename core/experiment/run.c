@@ -40,9 +40,8 @@ static bool open_results(struct irb_run *run, struct irb_error *err)
 {
     const struct irb_config *config = run->config;
     struct irb_key key = run->config_key;
-    run->dir = run->options->out
-                   ? irb_strdup(run->options->out)
-                   : irb_asprintf("results/runs/%s-%.8s", config->name, key.hex);
+    run->dir = run->options->out ? irb_strdup(run->options->out)
+                                 : irb_asprintf("results/runs/%s-%.8s", config->name, key.hex);
     if (!irb_fs_make_dirs(run->dir, err) || !(run->store = irb_store_open(run->dir, true, err)))
         return false;
     char *stored = irb_store_get_meta(run->store, "config_key");
@@ -91,8 +90,9 @@ static bool read_keys(struct irb_run *run, struct irb_sequence *sequence, struct
         line += used;
     }
     free(text);
-    return ok || irb_fail(err, IRB_E_USAGE, "%s: scene %s is not prepared; run --stage prepare first",
-                          run->dir, sequence->entry->name);
+    return ok ||
+           irb_fail(err, IRB_E_USAGE, "%s: scene %s is not prepared; run --stage prepare first",
+                    run->dir, sequence->entry->name);
 }
 
 static bool run_scene(struct irb_run *run, const struct irb_scene_entry *entry,

@@ -12,9 +12,9 @@
 
 struct irb_scored_trial {
     const struct irb_trial *trial;
-    const char *scene; /* borrowed */
+    const char *scene;                   /* borrowed */
     const struct irb_scene_entry *entry; /* borrowed: the scene's regions */
-    int64_t id;        /* in the store */
+    int64_t id;                          /* in the store */
 };
 
 /* What is compared: the method's result composed with albedo and direct light. */
@@ -26,7 +26,7 @@ struct irb_scored_frame {
 /* NaN where a value is not defined. */
 struct irb_frame_scores {
     bool present;
-    double values[IRB_METRIC_COUNT]; /* as the list has them */
+    double values[IRB_METRIC_COUNT];  /* as the list has them */
     double lag_errors[IRB_LAG_COUNT]; /* of the indirect image, see irb_lag_errors */
     double regions[IRB_MOST_REGIONS][IRB_REGION_METRIC_COUNT];
 };
@@ -65,8 +65,7 @@ void irb_frame_scores_clear(struct irb_frame_scores *scores);
 /* Stored under the metrics' names; those of a region as "indirect_rmse@REGION", lag errors as
  * "lag_error@TAU". */
 bool irb_frame_scores_store(const struct irb_frame_scores *scores, struct irb_store *store,
-                            const struct irb_scored_trial *trial, int frame,
-                            struct irb_error *err);
+                            const struct irb_scored_trial *trial, int frame, struct irb_error *err);
 /* Fills what the store has, frames[0..count-1]. */
 bool irb_frame_scores_read(struct irb_frame_scores *frames, int count, struct irb_store *store,
                            const struct irb_scored_trial *trial, struct irb_error *err);

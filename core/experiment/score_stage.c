@@ -88,8 +88,8 @@ static bool load_targets(struct scoring *s, struct irb_error *err)
     irb_reprojection_destroy(&s->motion);
     if (s->frame > 0 && s->previous_frame != s->frame - 1) {
         irb_target_destroy(&s->previous_target);
-        if (!irb_target_load(&s->previous_target, s->run, s->sequence, s->frame - 1,
-                             &s->constants, err))
+        if (!irb_target_load(&s->previous_target, s->run, s->sequence, s->frame - 1, &s->constants,
+                             err))
             return false;
         s->previous_frame = s->frame - 1;
     }
@@ -123,9 +123,8 @@ static bool anything_missing(const struct scoring *s, int frame)
 
 static bool score_one_frame(struct scoring *s, struct irb_error *err)
 {
-    if (!load_targets(s, err) ||
-        !irb_target_prepare(&s->target, s->sequence->entry, &s->constants,
-                            s->run->options->threads, err))
+    if (!load_targets(s, err) || !irb_target_prepare(&s->target, s->sequence->entry, &s->constants,
+                                                     s->run->options->threads, err))
         return false;
     if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
         for (int t = 0; t < s->trial_count; t++)
@@ -197,8 +196,8 @@ static void close_scoring(struct scoring *s)
 static bool store_sequences(struct scoring *s, struct irb_error *err)
 {
     for (int t = 0; t < s->trial_count; t++)
-        if (!irb_sequence_scores_store(s->trials[t].frames, s->sequence->frame_count,
-                                       &s->constants, s->run->store, &s->trials[t].trial, err))
+        if (!irb_sequence_scores_store(s->trials[t].frames, s->sequence->frame_count, &s->constants,
+                                       s->run->store, &s->trials[t].trial, err))
             return false;
     return true;
 }
@@ -215,8 +214,12 @@ static bool keep_images(struct scoring *s, struct irb_error *err)
         trials[t] = s->trials[t].trial;
         worst[t] = irb_worst_frame(s->trials[t].frames, s->sequence->frame_count);
     }
-    struct irb_keep keep = {.run = s->run, .sequence = s->sequence, .constants = &s->constants,
-                            .trials = trials, .worst = worst, .trial_count = s->trial_count};
+    struct irb_keep keep = {.run = s->run,
+                            .sequence = s->sequence,
+                            .constants = &s->constants,
+                            .trials = trials,
+                            .worst = worst,
+                            .trial_count = s->trial_count};
     ok = ok && irb_keep_images(&keep, err);
     free(trials);
     free(worst);

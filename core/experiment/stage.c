@@ -25,9 +25,8 @@ bool irb_run_need_gl(struct irb_run *run, struct irb_error *err)
 {
     if (run->gl)
         return true;
-    struct irb_gl_desc desc = {.backend = run->options->backend,
-                               .shader_dir = run->options->shader_dir,
-                               .log = run->log};
+    struct irb_gl_desc desc = {
+        .backend = run->options->backend, .shader_dir = run->options->shader_dir, .log = run->log};
     enum irb_work before = run->working;
     irb_run_work(run, IRB_WORK_STARTUP);
     run->gl = irb_gl_create(&desc, err);

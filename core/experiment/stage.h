@@ -19,16 +19,16 @@ enum irb_stage {
 };
 
 struct irb_run_options {
-    const char *out;        /* run folder; NULL = results/runs/NAME-KEY */
+    const char *out; /* run folder; NULL = results/runs/NAME-KEY */
     enum irb_backend backend;
-    const char *shader_dir; /* NULL = the embedded shaders */
-    int threads;            /* of reference and scoring; 0 = all cores */
-    unsigned stages;        /* enum irb_stage */
+    const char *shader_dir;  /* NULL = the embedded shaders */
+    int threads;             /* of reference and scoring; 0 = all cores */
+    unsigned stages;         /* enum irb_stage */
     const char *const *only; /* names of the trials to run; NULL or only_count 0 = all */
     int only_count;
-    bool keep_all;          /* keep every frame's image, not only first, middle, worst and last */
+    bool keep_all; /* keep every frame's image, not only first, middle, worst and last */
     const char *command_line;
-    struct irb_log *log;    /* may be NULL */
+    struct irb_log *log;               /* may be NULL */
     const volatile sig_atomic_t *stop; /* set on Ctrl-C; may be NULL */
 };
 
@@ -52,7 +52,7 @@ struct irb_run {
     struct irb_store *store; /* NULL in `irbench reference` */
     char *dir, *cache;       /* owned */
     double seconds[IRB_WORK_COUNT];
-    enum irb_work working;   /* what the clock is running for */
+    enum irb_work working; /* what the clock is running for */
     double since_s;
 };
 

@@ -264,7 +264,8 @@ static bool collect_frames(struct sequence_images *images, struct irb_target_con
     return true;
 }
 
-/* Keeps what the lag is taken from: nothing where camera or objects move, or the sequence is short. */
+/* Keeps what the lag is taken from: nothing where camera or objects move, or the sequence is short.
+ */
 static bool set_lag(struct irb_target_constants *c, const struct sequence_images *images,
                     struct irb_error *err)
 {
@@ -287,8 +288,8 @@ void irb_target_constants_destroy(struct irb_target_constants *constants)
 bool irb_target_constants_of(struct irb_target_constants *constants, const struct irb_run *run,
                              const struct irb_sequence *sequence, struct irb_error *err)
 {
-    *constants = (struct irb_target_constants){.exposure = run->config->render.exposure,
-                                               .view_rests = true};
+    *constants =
+        (struct irb_target_constants){.exposure = run->config->render.exposure, .view_rests = true};
     size_t n = (size_t)sequence->frame_count;
     struct sequence_images images = {
         .indirect = calloc(n, sizeof *images.indirect),
@@ -304,9 +305,8 @@ bool irb_target_constants_of(struct irb_target_constants *constants, const struc
         constants->eps_full = irb_relmse_eps(constants->mean_full);
         constants->eps_solution = irb_relmse_eps(constants->mean_solution);
         constants->eps_claim = irb_relmse_eps(constants->mean_claim);
-        constants->indirect_lit =
-            scales_of(images.indirect, images.masks, images.count, &constants->flip_indirect,
-                      &constants->peak_indirect);
+        constants->indirect_lit = scales_of(images.indirect, images.masks, images.count,
+                                            &constants->flip_indirect, &constants->peak_indirect);
         constants->full_lit = scales_of(images.full, images.masks, images.count,
                                         &constants->flip_full, &constants->peak_full);
         ok = set_lag(constants, &images, err);

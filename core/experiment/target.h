@@ -36,8 +36,8 @@ struct irb_target {
                                                              where the sequence is black */
     struct irb_target_view view_indirect, view_full;      /* empty until irb_target_prepare */
     uint8_t *regions[IRB_MOST_REGIONS]; /* masks of the scene's regions; NULL until then */
-    double noise_variance;     /* mean variance of `indirect` over counted pixels */
-    double noise_relmse;       /* the same relative to indirect^2 + eps: an error below it says nothing */
+    double noise_variance;              /* mean variance of `indirect` over counted pixels */
+    double noise_relmse; /* the same relative to indirect^2 + eps: an error below it says nothing */
 };
 
 /* Constants of a sequence; each is stored with the run. */
@@ -45,12 +45,12 @@ struct irb_target_constants {
     double mean_indirect, mean_full, mean_solution, mean_claim;
     double eps_indirect, eps_full, eps_solution, eps_claim; /* of relMSE */
     struct irb_flip_exposures flip_indirect, flip_full;
-    bool indirect_lit, full_lit; /* false: a black reference, FLIP is not defined */
+    bool indirect_lit, full_lit;     /* false: a black reference, FLIP is not defined */
     double peak_indirect, peak_full; /* of PSNR: 99.9th percentile of the sequence's values */
     double exposure;                 /* of previews, SSIM and LDR-FLIP */
     bool view_rests;                 /* neither camera nor objects move */
     struct irb_lag_reference *lag;   /* the indirect images, NULL where no lag is scored; owned */
-    double noise;                /* reached, largest of the frames: see irb_reference_image */
+    double noise;                    /* reached, largest of the frames: see irb_reference_image */
 };
 
 /* constants may be NULL (noise_relmse is then 0). The direct light and the mask are read from the

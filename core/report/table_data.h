@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What a table shows, read from the store and summarised: one row a trial, grouped by scene. A trial
- * that ran with several seeds is one row of their means, or one row a seed.
+ * What a table shows, read from the store and summarised: one row a trial, grouped by scene. A
+ * trial that ran with several seeds is one row of their means, or one row a seed.
  */
 #ifndef IRB_REPORT_TABLE_DATA_H
 #define IRB_REPORT_TABLE_DATA_H
@@ -10,11 +10,12 @@
 #include "core/score/metric_list.h"
 
 struct irb_table_row {
-    const struct irb_store_trial_row *trial; /* borrowed from the data; of several seeds the first */
+    const struct irb_store_trial_row
+        *trial; /* borrowed from the data; of several seeds the first */
     char *name; /* the trial's, with the seed behind it where rows differ by it alone; owned */
     int seeds;  /* whose mean the row is */
-    double metrics[IRB_METRIC_COUNT];        /* of the sequence; NaN where there is none */
-    double spread[IRB_METRIC_COUNT]; /* standard deviation over the seeds; NaN below two of them */
+    double metrics[IRB_METRIC_COUNT]; /* of the sequence; NaN where there is none */
+    double spread[IRB_METRIC_COUNT];  /* standard deviation over the seeds; NaN below two of them */
     double *stage_ms; /* medians, one for each stage of the data, NaN where it has none; owned */
     int stage_count;
     double *regions; /* as the data's region metrics; NaN where there is none; owned */
@@ -27,7 +28,7 @@ struct irb_table_data {
     struct irb_table_row *rows; /* scenes in order of appearance, their trials together */
     int row_count;
     bool has_spread; /* some row is of several seeds */
-    char **stages; /* names of all trials' stages, in order of appearance */
+    char **stages;   /* names of all trials' stages, in order of appearance */
     int stage_count;
     char **region_metrics; /* "METRIC@REGION" of all trials, in order of appearance; owned */
     int region_metric_count;

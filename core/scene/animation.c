@@ -208,7 +208,8 @@ void irb_animation_light(const struct irb_animation *animation, const struct irb
     const struct irb_light_key *keys = animation->light_keys;
     const size_t stride = sizeof *keys;
     enum irb_interpolation kind = animation->light_interpolation;
-    struct irb_key_segment at = irb_keys_find(&keys->frame, stride, animation->light_key_count, frame);
+    struct irb_key_segment at =
+        irb_keys_find(&keys->frame, stride, animation->light_key_count, frame);
     double position[3], target[3];
 
     *out = (struct irb_light){.type = animation->light_type, .falloff = animation->falloff};
@@ -280,7 +281,8 @@ void irb_animation_camera(const struct irb_animation *animation, const struct ir
     const struct irb_camera_key *keys = animation->camera_keys;
     const size_t stride = sizeof *keys;
     enum irb_interpolation kind = animation->camera_interpolation;
-    struct irb_key_segment at = irb_keys_find(&keys->frame, stride, animation->camera_key_count, frame);
+    struct irb_key_segment at =
+        irb_keys_find(&keys->frame, stride, animation->camera_key_count, frame);
     double position[3], target[3], up[3];
 
     *out = (struct irb_camera){0};

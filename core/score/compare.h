@@ -50,9 +50,9 @@ struct irb_comparison {
 };
 
 /* 3-channel images; IRB_E_INPUT where their sizes differ. display_referred: linear values that a
- * display emits, in [0,1]; else radiance, which is tone-mapped (Reinhard) at the exposure that takes
- * the reference's log-average luminance to 0.18. threads 0 = all cores; the values do not depend on
- * it. On failure nothing has to be destroyed. */
+ * display emits, in [0,1]; else radiance, which is tone-mapped (Reinhard) at the exposure that
+ * takes the reference's log-average luminance to 0.18. threads 0 = all cores; the values do not
+ * depend on it. On failure nothing has to be destroyed. */
 bool irb_compare(struct irb_comparison *out, const struct irb_image *test,
                  const struct irb_image *reference, bool display_referred, int threads,
                  struct irb_error *err);

@@ -69,7 +69,8 @@ bool irb_flip_hdr_maps(const struct irb_image *test, const struct irb_image *ref
 
 /* LDR-FLIP in two steps, for an image that is compared more than once: a view is the analysis of
  * one displayed image (3 channels, linear values in [0,1] as irb_display makes them), 20 bytes a
- * pixel. Owned by the caller; freed with irb_flip_reference_destroy. Views are made with one ppd. */
+ * pixel. Owned by the caller; freed with irb_flip_reference_destroy. Views are made with one ppd.
+ */
 struct irb_flip_reference *irb_flip_view_create(const struct irb_image *linear, double ppd,
                                                 int threads, struct irb_error *err);
 bool irb_flip_views(const struct irb_flip_reference *test,

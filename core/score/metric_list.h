@@ -23,7 +23,8 @@
     X(image##_relmse, "", LOWER, text " image: relative MSE, mean (v-r)^2/(r^2+eps)")              \
     X(image##_smape, "", LOWER, text " image: SMAPE, mean |v-r|/(|v|+|r|+sqrt(eps))")              \
     X(image##_psnr, "dB", HIGHER,                                                                  \
-      text " image: PSNR, 20 log10(peak/RMSE), peak = 99.9th percentile of the reference's values") \
+      text                                                                                         \
+      " image: PSNR, 20 log10(peak/RMSE), peak = 99.9th percentile of the reference's values")     \
     X(image##_bias, IRB_RADIANCE_UNIT, ZERO, text " image: mean signed error, mean (v-r)")         \
     X(image##_energy_ratio, "", ONE, text " image: sum v / sum r")                                 \
     X(image##_flip, "", LOWER,                                                                     \
@@ -32,7 +33,8 @@
       text " image: mean SSIM (Wang et al. 2004, 11x11 Gaussian, sigma 1.5) on the luma of the "   \
            "fixed-exposure tone-mapped sRGB image")                                                \
     X(image##_ldr_flip, "", LOWER,                                                                 \
-      text " image: mean LDR-FLIP (Andersson et al. 2020) of the fixed-exposure tone-mapped image") \
+      text                                                                                         \
+      " image: mean LDR-FLIP (Andersson et al. 2020) of the fixed-exposure tone-mapped image")     \
     X(image##_temporal_flip, "", LOWER,                                                            \
       text " image: mean LDR-FLIP, at the fixed exposure, between v_t and "                        \
            "max(0, v_(t-1) + r_t - r_(t-1))")                                                      \

@@ -48,8 +48,8 @@ double irb_psnr(double rmse, double peak);
 #define IRB_PSNR_PEAK_FRACTION 0.999
 
 /* The smallest value that `fraction` of all values do not exceed (nearest rank), over channels and
- * the pixels under the masks that are finite; negative values count as 0. masks, or any of them, may
- * be NULL: all pixels. NaN when memory is out, 0 for no value. */
+ * the pixels under the masks that are finite; negative values count as 0. masks, or any of them,
+ * may be NULL: all pixels. NaN when memory is out, 0 for no value. */
 double irb_value_percentile(const struct irb_image *const *images, const uint8_t *const *masks,
                             int image_count, double fraction);
 

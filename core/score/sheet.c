@@ -47,9 +47,9 @@ static bool place_errors(struct irb_image *sheet, const struct irb_sheet_inputs 
                          struct irb_error *err)
 {
     struct irb_image difference = {0}, panel = {0};
-    bool ok = signed_error(in->indirect, in->reference_indirect, in->mean_indirect, &difference,
-                           err) &&
-              irb_falsecolour_signed(&difference, 1, &panel, err);
+    bool ok =
+        signed_error(in->indirect, in->reference_indirect, in->mean_indirect, &difference, err) &&
+        irb_falsecolour_signed(&difference, 1, &panel, err);
     if (ok)
         place(sheet, &panel, 2, 0);
     irb_image_destroy(&panel);

@@ -11,10 +11,11 @@
 #include "core/image/image.h"
 
 struct irb_sheet_inputs {
-    const struct irb_image *full, *indirect, *reference_full, *reference_indirect; /* RGB radiance */
+    const struct irb_image *full, *indirect, *reference_full,
+        *reference_indirect;               /* RGB radiance */
     const struct irb_image *flip_indirect; /* 1 channel in [0,1] */
-    double exposure;      /* of all four; fixed for the sequence */
-    double mean_indirect; /* the signed error's colours end at +- this */
+    double exposure;                       /* of all four; fixed for the sequence */
+    double mean_indirect;                  /* the signed error's colours end at +- this */
 };
 
 /* sheet: 3 channels, sRGB in [0,1]; created. */

@@ -333,9 +333,10 @@ static void test_sweeps(void **state)
 static void test_matrix(void **state)
 {
     (void)state;
-    expect_trials("  - rsm: {matrix: [{mode: all, samples: 9}, {mode: importance}, {}], clamp: 5}\n",
-                  (const char *const[]){"rsm:mode=all:samples=9:clamp=5",
-                                        "rsm:mode=importance:clamp=5", "rsm:clamp=5", NULL});
+    expect_trials(
+        "  - rsm: {matrix: [{mode: all, samples: 9}, {mode: importance}, {}], clamp: 5}\n",
+        (const char *const[]){"rsm:mode=all:samples=9:clamp=5", "rsm:mode=importance:clamp=5",
+                              "rsm:clamp=5", NULL});
     /* an entry wins over what stands beside it; lists go on meaning one trial each */
     expect_trials("  - rsm: {samples: [1, 2], matrix: [{mode: all}, {samples: [3, 4]}]}\n",
                   (const char *const[]){"rsm:mode=all:samples=1", "rsm:mode=all:samples=2",
@@ -437,8 +438,7 @@ int main(void)
         cmocka_unit_test(test_aliases),   cmocka_unit_test(test_environment),
         cmocka_unit_test(test_overrides), cmocka_unit_test(test_key),
         cmocka_unit_test(test_sweeps),    cmocka_unit_test(test_matrix),
-        cmocka_unit_test(test_seeds),
-        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_seeds),     cmocka_unit_test(test_regions),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -142,7 +142,8 @@ static void test_top(void **state)
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
                "seeds, resolution, reference, scenes, scene, camera, light, animation, "
-               "objects, regions, trials, width, height, frames, settle, rsm_resolution, gbuffer_layout, rsm_layout, exposure, "
+               "objects, regions, trials, width, height, frames, settle, rsm_resolution, "
+               "gbuffer_layout, rsm_layout, exposure, "
                "repeats");
     expect_top("frames: 3\nframes: 4",
                "@:3:1: config: 'frames' stands here twice, first in line 2");
@@ -214,12 +215,14 @@ static void test_regions(void **state)
     expect_top("regions: [{name: a, box: [9, 0, 8, 3]}]",
                "@:2:26: box: expected [x0, y0, x1, y1] with x0 < x1 and y0 < y1, found [9, 0, 8, "
                "3]");
-    expect_top("regions: [{name: a, box: [0, 0, 513, 384]}]",
-               "@: scene cornell: region a: expected a box with at least one pixel inside the image "
-               "of 512 x 384, found [0, 0, 513, 384]");
-    expect_top("regions: [{name: a, box: [0, 0, 0.0001, 1]}]",
-               "@: scene cornell: region a: expected a box with at least one pixel inside the image "
-               "of 512 x 384, found [0, 0, 0.0001, 1]");
+    expect_top(
+        "regions: [{name: a, box: [0, 0, 513, 384]}]",
+        "@: scene cornell: region a: expected a box with at least one pixel inside the image "
+        "of 512 x 384, found [0, 0, 513, 384]");
+    expect_top(
+        "regions: [{name: a, box: [0, 0, 0.0001, 1]}]",
+        "@: scene cornell: region a: expected a box with at least one pixel inside the image "
+        "of 512 x 384, found [0, 0, 0.0001, 1]");
     expect("scenes: [{scene: cornell}]\nregions: []\ntrials: [rsm]\n",
            "@:2:10: regions: expected inside the entries of scenes:, found beside it");
     struct irb_str many = {0};
@@ -549,8 +552,7 @@ static void test_seeds(void **state)
     expect_top("seeds:", "@:2:7: seeds: expected a whole number in [1, 100]; found ''");
     expect_top("seeds: []", "@:2:8: seeds: expected a number or a list of seeds, found an empty "
                             "list");
-    expect_top("seeds: {a: 1}",
-               "@:2:8: seeds: expected a number or a list of seeds, found a map");
+    expect_top("seeds: {a: 1}", "@:2:8: seeds: expected a number or a list of seeds, found a map");
     expect_top("seeds: [1, -1]",
                "@:2:12: seeds: seed: expected a whole number in [0, 2.14748e+09]; found '-1'");
     expect_top("seeds: [1, [2]]", "@:2:12: seeds: expected a single value, found a list");
@@ -616,15 +618,14 @@ int main(void)
         cmocka_unit_test(test_files),        cmocka_unit_test(test_syntax),
         cmocka_unit_test(test_deep_nesting), cmocka_unit_test(test_top),
         cmocka_unit_test(test_reference),    cmocka_unit_test(test_scenes),
-        cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_environment),  cmocka_unit_test(test_file_scenes),
-        cmocka_unit_test(test_of_file),
-        cmocka_unit_test(test_objects),
-        cmocka_unit_test(test_light),        cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_camera),       cmocka_unit_test(test_trials),
-        cmocka_unit_test(test_one_line),     cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_sweeps),       cmocka_unit_test(test_matrix),
-        cmocka_unit_test(test_too_many),     cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_regions),      cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_file_scenes),  cmocka_unit_test(test_of_file),
+        cmocka_unit_test(test_objects),      cmocka_unit_test(test_light),
+        cmocka_unit_test(test_keys),         cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_trials),       cmocka_unit_test(test_one_line),
+        cmocka_unit_test(test_overrides),    cmocka_unit_test(test_sweeps),
+        cmocka_unit_test(test_matrix),       cmocka_unit_test(test_too_many),
+        cmocka_unit_test(test_seeds),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -3,10 +3,10 @@
  * Two programs of different kind agree: plain RSM with every texel a light, and the ray-traced
  * reference without visibility between bounce point and receiver, on the Cornell box.
  *
- * Where the geometry term cos cos/r^2 of a texel and a receiver is large, the sum over the texels of
- * any finite map differs from the integral (the singularity of virtual point lights, thesis 3.2.1).
- * Receivers for which any texel's term exceeds that of two facing points at singular_distance are
- * left out; how many may be is part of the test.
+ * Where the geometry term cos cos/r^2 of a texel and a receiver is large, the sum over the texels
+ * of any finite map differs from the integral (the singularity of virtual point lights,
+ * thesis 3.2.1). Receivers for which any texel's term exceeds that of two facing points at
+ * singular_distance are left out; how many may be is part of the test.
  */
 #include "tests/support/compare.h"
 #include "core/reference/reference.h"
@@ -50,10 +50,8 @@ static void render_reference(const struct fixture_frame *f, const struct irb_gbu
                              struct irb_reference_image *out)
 {
     struct irb_error err = {0};
-    const struct irb_reference_settings settings = {.min_samples = SAMPLES,
-                                                    .max_samples = SAMPLES,
-                                                    .bounces = 1,
-                                                    .unoccluded = true};
+    const struct irb_reference_settings settings = {
+        .min_samples = SAMPLES, .max_samples = SAMPLES, .bounces = 1, .unoccluded = true};
     struct irb_tracer *tracer = irb_tracer_create(f->scene, &err);
     REQUIRE_OK(tracer);
     const struct irb_reference_job job = {.tracer = tracer,
@@ -107,7 +105,8 @@ static void test_all_against_unoccluded(void **state)
     for (size_t i = 0; i < irb_image_pixels(&rsm); i++) {
         const float *p = gbuffer.position.data + 4 * i;
         covered += p[3] > 0;
-        if (p[3] <= 0 || largest_term(p, gbuffer.normal.data + 4 * i, &position, &normal, &flux) > bound)
+        if (p[3] <= 0 ||
+            largest_term(p, gbuffer.normal.data + 4 * i, &position, &normal, &flux) > bound)
             continue;
         for (size_t c = 0; c < 3; c++) {
             double v = rsm.data[3 * i + c], r = reference.unoccluded.data[3 * i + c];

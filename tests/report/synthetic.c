@@ -38,9 +38,9 @@ static bool fill_all(struct irb_store *store, int64_t trial, struct irb_error *e
             return false;
     }
     const struct irb_store_value whole[] = {
-        {"indirect_relmse", 0.0005}, {"indirect_rmse", 0.02},    {"indirect_energy_ratio", 1.02},
-        {"indirect_flicker", 0.001}, {"reference_noise", 0.001}, {"reference_flicker", 0.002},
-        {"indirect_flip", 0.0625},   {"lost_energy", 0},         {"non_finite", 0},
+        {"indirect_relmse", 0.0005},  {"indirect_rmse", 0.02},    {"indirect_energy_ratio", 1.02},
+        {"indirect_flicker", 0.001},  {"reference_noise", 0.001}, {"reference_flicker", 0.002},
+        {"indirect_flip", 0.0625},    {"lost_energy", 0},         {"non_finite", 0},
         {"indirect_rmse@wall", 0.75},
     };
     return irb_store_scores(store, trial, -1, whole, COUNT(whole), err);

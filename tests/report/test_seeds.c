@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Trials that ran with several seeds: means and spreads, one row or one a seed. And LaTeX's escapes.
+ * Trials that ran with several seeds: means and spreads, one row or one a seed. And LaTeX's
+ * escapes.
  */
 #include "core/report/table.h"
 #include "core/report/table_latex.h"

@@ -38,7 +38,8 @@ static char *write_table(struct irb_store *store, enum irb_table_format format, 
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    REQUIRE_OK(irb_table_write(out, store, &(struct irb_table_options){.format = format, .colour = colour}, &err));
+    REQUIRE_OK(irb_table_write(
+        out, store, &(struct irb_table_options){.format = format, .colour = colour}, &err));
     fclose(out);
     return text;
 }

@@ -172,7 +172,8 @@ static void append_u32(struct irb_str *str, size_t value)
 }
 
 /* folder/shape.glb, cut to its first `keep` bytes (0: all). */
-__attribute__((unused)) static char *write_glb(const char *folder, const struct test_gltf *gltf, size_t keep)
+__attribute__((unused)) static char *write_glb(const char *folder, const struct test_gltf *gltf,
+                                               size_t keep)
 {
     char *path = irb_asprintf("%s/shape.glb", folder);
     struct irb_str json = {0}, bytes, file = {0};

@@ -199,10 +199,10 @@ static void views_agree_with_ldr(void **state)
     struct irb_flip_scores expected, found;
     REQUIRE_OK(irb_flip_ldr(&t, &r, NULL, IRB_FLIP_PPD, 0, &expected_map, &expected, &err));
     for (size_t i = 0; i < 3 * irb_image_pixels(&t); i++) {
-        t.data[i] = t.data[i] <= 0.04045f ? t.data[i] / 12.92f
-                                          : powf((t.data[i] + 0.055f) / 1.055f, 2.4f);
-        r.data[i] = r.data[i] <= 0.04045f ? r.data[i] / 12.92f
-                                          : powf((r.data[i] + 0.055f) / 1.055f, 2.4f);
+        t.data[i] =
+            t.data[i] <= 0.04045f ? t.data[i] / 12.92f : powf((t.data[i] + 0.055f) / 1.055f, 2.4f);
+        r.data[i] =
+            r.data[i] <= 0.04045f ? r.data[i] / 12.92f : powf((r.data[i] + 0.055f) / 1.055f, 2.4f);
     }
     struct irb_flip_reference *a = irb_flip_view_create(&t, IRB_FLIP_PPD, 2, &err);
     struct irb_flip_reference *b = irb_flip_view_create(&r, IRB_FLIP_PPD, 1, &err);

@@ -393,8 +393,8 @@ static void every_metric_is_documented(void **state)
     }
     assert_int_equal(irb_metric_find("nonsense"), -1);
     assert_int_equal(irb_region_metric_find("full_flip@door"), IRB_METRIC_full_flip);
-    static const char *const none[] = {"full_flip", "full_flip@", "full_fli@door", "lag@door",
-                                       "full_flipx@door", "@door"};
+    static const char *const none[] = {"full_flip", "full_flip@",      "full_fli@door",
+                                       "lag@door",  "full_flipx@door", "@door"};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
         assert_int_equal(irb_region_metric_find(none[i]), -1);
     REQUIRE_NEAR(irb_metric_badness(IRB_METRIC_full_energy_ratio, 0.75), 0.25, 1e-15);
