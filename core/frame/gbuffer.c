@@ -87,18 +87,6 @@ void irb_gbuffer_destroy(struct irb_gbuffer *gbuffer)
     free(gbuffer);
 }
 
-/* projection * view, rounded once */
-static void multiply(const float a[16], const float b[16], float out[16])
-{
-    for (int c = 0; c < 4; c++)
-        for (int r = 0; r < 4; r++) {
-            double sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += (double)a[4 * k + r] * b[4 * c + k];
-            out[4 * c + r] = (float)sum;
-        }
-}
-
 /* What the slim layout is decoded with. */
 static void keep_camera(struct irb_gbuffer *gbuffer, const struct irb_camera *camera,
                         const float view[16], const float projection[16])
@@ -165,7 +153,7 @@ bool irb_gbuffer_render(struct irb_gbuffer *gbuffer, const struct irb_scene_gl *
     irb_camera_matrices(camera, (float)gbuffer->width / (float)gbuffer->height, view, projection);
     if (reversed)
         reverse_depth(camera, projection);
-    multiply(projection, view, view_projection);
+    irb_matrix_product(projection, view, view_projection);
     keep_camera(gbuffer, camera, view, projection);
     set_uniforms(gbuffer, view_projection, gbuffer->program.opaque);
     if (gbuffer->program.masked)

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/scene/light.h"
+#include "core/scene/camera.h"
 
 #include "core/scene/vec.h"
 
 #include <string.h>
 
-/* In double and rounded once: cglm's single precision loses the eye position of scenes that lie far
- * from the origin. */
-static void view_matrix(const struct irb_camera *camera, float view[16])
+void camera_axes(const struct irb_camera *camera, double right[3], double up[3], double forward[3])
 {
-    double eye[3], target[3], hint[3], forward[3], right[3], up[3];
+    double eye[3], target[3], hint[3];
 
     vec_from_float(camera->position, eye);
     vec_from_float(camera->target, target);
@@ -19,6 +17,15 @@ static void view_matrix(const struct irb_camera *camera, float view[16])
     vec_cross(forward, hint, right);
     vec_normalize(right);
     vec_cross(right, forward, up);
+}
+
+/* In double and rounded once. */
+static void view_matrix(const struct irb_camera *camera, float view[16])
+{
+    double eye[3], forward[3], right[3], up[3];
+
+    vec_from_float(camera->position, eye);
+    camera_axes(camera, right, up, forward);
     for (int column = 0; column < 3; column++) {
         view[4 * column + 0] = (float)right[column];
         view[4 * column + 1] = (float)up[column];
@@ -44,6 +51,17 @@ void irb_camera_matrices(const struct irb_camera *camera, float aspect, float vi
     projection[10] = (float)(-(far + near) / (far - near));
     projection[11] = -1;
     projection[14] = (float)(-2 * far * near / (far - near));
+}
+
+void irb_matrix_product(const float a[16], const float b[16], float out[16])
+{
+    for (int c = 0; c < 4; c++)
+        for (int r = 0; r < 4; r++) {
+            double sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += (double)a[4 * k + r] * b[4 * c + k];
+            out[4 * c + r] = (float)sum;
+        }
 }
 
 void irb_camera_hash(const struct irb_camera *camera, struct irb_hash *hash)

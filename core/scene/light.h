@@ -59,6 +59,9 @@ struct irb_camera {
 void irb_camera_matrices(const struct irb_camera *camera, float aspect, float view[16],
                          float projection[16]);
 
+/* out = a b, column-major, each element rounded once; `out` must not be `a` or `b`. */
+void irb_matrix_product(const float a[16], const float b[16], float out[16]);
+
 void irb_camera_hash(const struct irb_camera *camera, struct irb_hash *hash);
 
 #endif

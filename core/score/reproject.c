@@ -19,17 +19,6 @@ static void transform(const float m[16], const float p[3], float out[4])
         out[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
 }
 
-static void multiply(const float a[16], const float b[16], float out[16])
-{
-    for (int c = 0; c < 4; c++)
-        for (int r = 0; r < 4; r++) {
-            float sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += a[4 * k + r] * b[4 * c + k];
-            out[4 * c + r] = sum;
-        }
-}
-
 /* Index of the pixel that the point falls on, or -1. */
 static int32_t project(const float view_projection[16], const float position[3], int width,
                        int height)
@@ -130,7 +119,7 @@ bool irb_reproject(struct irb_reprojection *out, const struct irb_gbuffer_image 
         return irb_fail(err, IRB_E_MEMORY, "no memory to reproject %zu pixels", pixels);
     float view[16], projection[16], view_projection[16];
     irb_camera_matrices(previous_camera, (float)width / (float)height, view, projection);
-    multiply(projection, view, view_projection);
+    irb_matrix_product(projection, view, view_projection);
     for (size_t i = 0; i < pixels; i++) {
         const float *position = current->position.data + 4 * i;
         int32_t j = position[3] > 0 ? project(view_projection, position, width, height) : -1;

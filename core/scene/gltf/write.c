@@ -4,6 +4,7 @@
 #include "core/base/fs.h"
 #include "core/base/str.h"
 #include "core/image/imageio.h"
+#include "core/scene/camera.h"
 #include "core/scene/vec.h"
 
 #include <stdio.h>
@@ -218,16 +219,9 @@ static void frame_matrix(const double right[3], const double up[3], const double
 
 static void add_camera(struct writer *writer, const struct irb_camera *camera, struct irb_str *out)
 {
-    double eye[3], target[3], hint[3], forward[3], right[3], up[3], matrix[16];
+    double forward[3], right[3], up[3], matrix[16];
 
-    vec_from_float(camera->position, eye);
-    vec_from_float(camera->target, target);
-    vec_from_float(camera->up, hint);
-    vec_sub(target, eye, forward);
-    vec_normalize(forward);
-    vec_cross(forward, hint, right);
-    vec_normalize(right);
-    vec_cross(right, forward, up);
+    camera_axes(camera, right, up, forward);
     frame_matrix(right, up, forward, camera->position, matrix);
     add_node(writer, "camera", matrix, "\"camera\":0");
     irb_str_printf(out,
