@@ -32,7 +32,7 @@ const struct irb_option irb_render_options[] = {
                      "factor on radiance before previews are tone-mapped; 0 = from the reference",
                      "ours"),
     IRB_OPTION_INT(struct irb_render_settings, repeats, 1, 1, 1000, "",
-                   "timed repeats of the sequence", "ours"),
+                   "timed repeats of the sequence; without effect so far: one is rendered", "ours"),
     IRB_OPTION_END,
 };
 

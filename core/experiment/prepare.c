@@ -59,7 +59,7 @@ bool irb_prepare_gbuffers(struct irb_run *run, struct irb_sequence *sequence, st
     return ok;
 }
 
-/* Traces one frame, unless the cache has it. *traced tells. */
+/* Traces one frame into the cache. */
 static bool prepare_reference(struct irb_run *run, const struct irb_tracer *tracer,
                               const struct irb_sequence_frame *frame, struct irb_error *err)
 {
