@@ -4,17 +4,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-const char *const irb_vpl_sampling_names[] = {"all", "uniform", "importance", NULL};
+const char *const irb_vpl_sampling_names[] = {"all", "uniform", "importance", "map", NULL};
 
 /* Shader storage bindings of shaders/lights/. */
-enum { LIGHTS_BINDING = 0, RUNS_BINDING = 1, PYRAMID_BINDING = 2, COUNTER_BINDING = 3 };
-enum { RUN_GROUP = 64, PYRAMID_GROUP = 8 }; /* work group sizes there */
+enum { LIGHTS_BINDING = 0, RUNS_BINDING = 1, COUNTER_BINDING = 3 }; /* 2: the pyramid */
+enum { RUN_GROUP = 64 };                                            /* work group size there */
 
 struct irb_vpl_sampler {
     struct irb_program *count, *scan, *write;
-    struct irb_program *pyramid; /* IMPORTANCE only, with the two below */
-    struct irb_buffer *pyramid_sums;
-    int pyramid_levels; /* log2 of the padded side, + 1 */
+    struct irb_pyramid *pyramid; /* of the flux; IMPORTANCE only */
     struct irb_buffer *runs;
     int resolution;
     enum irb_layout layout; /* of the RSM that the programs read */
@@ -24,31 +22,16 @@ static struct irb_program *create_program(struct irb_gl *gl, enum irb_vpl_sampli
                                           enum irb_layout layout, const char *name,
                                           const char *path, struct irb_error *err)
 {
-    static const char *const sampling_defines[] = {"SAMPLING 0", "SAMPLING 1", "SAMPLING 2"};
+    static const char *const sampling_defines[] = {"SAMPLING 0", "SAMPLING 1", "SAMPLING 2",
+                                                   "SAMPLING 3"};
     const char *const defines[] = {sampling_defines[sampling], irb_rsm_define(layout), NULL};
     return irb_program_create(
         gl, &(struct irb_program_desc){.name = name, .compute = path, .defines = defines}, err);
 }
 
-/* Number of floats in the levels before `level`. */
-static int64_t pyramid_offset(int levels, int level)
-{
-    return (((int64_t)1 << 2 * levels) - ((int64_t)1 << 2 * (levels - level))) / 3;
-}
-
-static bool create_pyramid(struct irb_gl *gl, struct irb_vpl_sampler *s, struct irb_error *err)
-{
-    s->pyramid_levels = 1;
-    while (1 << (s->pyramid_levels - 1) < s->resolution)
-        s->pyramid_levels++;
-    s->pyramid_sums = irb_buffer_create(
-        gl, "vpl: pyramid", 4 * pyramid_offset(s->pyramid_levels, s->pyramid_levels), NULL, err);
-    return s->pyramid_sums != NULL;
-}
-
 static void destroy_programs(struct irb_vpl_sampler *s)
 {
-    struct irb_program **const programs[] = {&s->count, &s->scan, &s->write, &s->pyramid};
+    struct irb_program **const programs[] = {&s->count, &s->scan, &s->write};
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++) {
         irb_program_destroy(*programs[i]);
         *programs[i] = NULL;
@@ -67,10 +50,7 @@ static bool create_programs(struct irb_vpl_set *set, enum irb_layout layout, str
            (s->scan =
                 create_program(gl, sampling, layout, "vpl: scan", "lights/vpl_scan.comp", err)) &&
            (s->write =
-                create_program(gl, sampling, layout, "vpl: write", "lights/vpl_write.comp", err)) &&
-           (sampling != IRB_VPL_IMPORTANCE ||
-            (s->pyramid =
-                 create_program(gl, sampling, layout, "vpl: pyramid", "lights/pyramid.comp", err)));
+                create_program(gl, sampling, layout, "vpl: write", "lights/vpl_write.comp", err));
 }
 
 /* Candidates that one invocation walks through: about the square root of their number, which
@@ -98,11 +78,12 @@ static bool create_sampler(struct irb_vpl_set *set, int resolution, struct irb_e
         /* the most runs that any number of candidates up to the capacity has, with some to spare */
         s->runs = irb_buffer_create(gl, "vpl: runs", 4 * (run_count_of(set->capacity) + (int64_t)8),
                                     NULL, err);
-    return s->runs && (set->sampling != IRB_VPL_IMPORTANCE || create_pyramid(gl, s, err));
+    if (s->runs && set->sampling == IRB_VPL_IMPORTANCE)
+        s->pyramid = irb_pyramid_create(gl, resolution, err);
+    return s->runs && (set->sampling != IRB_VPL_IMPORTANCE || s->pyramid);
 }
 
-/* Fails unless the lights and the pyramid (of 4-byte sums, padded to a power of two: at most
- * 4 * 4 * 4/3 bytes a texel) fit into what a shader storage block can hold. */
+/* Fails unless the lights fit into what a shader storage block can hold. */
 static bool check_size(struct irb_gl *gl, int64_t lights, int64_t resolution, struct irb_error *err)
 {
     GLint64 most = 0;
@@ -110,7 +91,7 @@ static bool check_size(struct irb_gl *gl, int64_t lights, int64_t resolution, st
     if (lights < 1 || resolution < 1)
         return irb_fail(err, IRB_E_INTERNAL, "virtual lights: room for %lld of an RSM of %lld",
                         (long long)lights, (long long)resolution);
-    if (lights * IRB_VPL_BYTES > most || resolution * resolution * 22 > most)
+    if (lights * IRB_VPL_BYTES > most)
         return irb_fail(err, IRB_E_INPUT,
                         "virtual lights: %lld lights from an RSM of %lld x %lld texels exceed the "
                         "driver's %lld MiB for one buffer; use a smaller RSM or fewer samples",
@@ -152,7 +133,7 @@ void irb_vpl_set_destroy(struct irb_vpl_set *set)
         return;
     if (set->sampler) {
         destroy_programs(set->sampler);
-        irb_buffer_destroy(set->sampler->pyramid_sums);
+        irb_pyramid_destroy(set->sampler->pyramid);
         irb_buffer_destroy(set->sampler->runs);
         free(set->sampler);
     }
@@ -161,54 +142,27 @@ void irb_vpl_set_destroy(struct irb_vpl_set *set)
     free(set);
 }
 
-/* Sums the luminance of the flux level by level; see shaders/lights/pyramid.comp. */
-static void build_pyramid(const struct irb_vpl_set *set, const struct irb_rsm *rsm)
-{
-    const struct irb_gl_api *api = &set->gl->api;
-    const struct irb_vpl_sampler *s = set->sampler;
-    const int levels = s->pyramid_levels;
-
-    irb_program_use(s->pyramid);
-    irb_rsm_bind(rsm, s->pyramid, 0);
-    irb_program_int(s->pyramid, "resolution", s->resolution);
-    for (int level = 0; level < levels; level++) {
-        int side = 1 << (levels - 1 - level);
-        unsigned groups = (unsigned)(side + PYRAMID_GROUP - 1) / PYRAMID_GROUP;
-        irb_program_int(s->pyramid, "level", level);
-        irb_program_int(s->pyramid, "side", side);
-        irb_program_int(s->pyramid, "offset", (int)pyramid_offset(levels, level));
-        irb_program_int(s->pyramid, "finer_offset",
-                        level ? (int)pyramid_offset(levels, level - 1) : 0);
-        api->DispatchCompute(groups, groups, 1);
-        api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    }
-}
-
 static void set_candidates(const struct irb_vpl_set *set, const struct irb_program *program,
-                           const struct irb_rsm *rsm, int candidates, unsigned first)
+                           const struct irb_rsm *rsm, const struct irb_pyramid *pyramid,
+                           int candidates, unsigned first)
 {
     irb_program_use(program);
     irb_rsm_bind(rsm, program, 0);
+    if (pyramid)
+        irb_pyramid_bind(pyramid, program);
     irb_program_float(program, "normal_offset", set->normal_offset);
     irb_program_int(program, "resolution", set->sampler->resolution);
-    irb_program_int(program, "pyramid_levels", set->sampler->pyramid_levels);
     irb_program_uint(program, "candidates", (unsigned)candidates);
     irb_program_uint(program, "first", first);
     irb_program_uint(program, "run_length", (unsigned)run_length_of(candidates));
 }
 
-static void bind_inputs(const struct irb_vpl_set *set, const struct irb_rsm *rsm)
+static void bind_outputs(const struct irb_vpl_set *set)
 {
     const struct irb_gl_api *api = &set->gl->api;
-    const struct irb_vpl_sampler *s = set->sampler;
-
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, LIGHTS_BINDING, set->lights->id);
-    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, RUNS_BINDING, s->runs->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, RUNS_BINDING, set->sampler->runs->id);
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, COUNTER_BINDING, set->counter->id);
-    if (s->pyramid_sums)
-        api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, PYRAMID_BINDING, s->pyramid_sums->id);
-    if (s->pyramid)
-        build_pyramid(set, rsm);
 }
 
 /* Zero flux from the last light to the end of its block. */
@@ -220,30 +174,25 @@ static bool clear_rest(const struct irb_vpl_set *set, struct irb_error *err)
                                      rest * IRB_VPL_BYTES, zeros, err);
 }
 
-bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int samples,
-                        unsigned first, struct irb_error *err)
+/* Count, scan, write. */
+static bool run_passes(struct irb_vpl_set *set, const struct irb_rsm *rsm,
+                       const struct irb_pyramid *pyramid, int candidates, unsigned first,
+                       struct irb_error *err)
 {
     const struct irb_gl_api *api = &set->gl->api;
     const struct irb_vpl_sampler *s = set->sampler;
-    const int candidates = set->sampling == IRB_VPL_ALL ? s->resolution * s->resolution : samples;
-    if (rsm->resolution != s->resolution || candidates < 1 || candidates > set->capacity)
-        return irb_fail(err, IRB_E_INTERNAL,
-                        "virtual lights: made for %d of an RSM of %d texels a side, asked for %d "
-                        "of one of %d",
-                        set->capacity, s->resolution, candidates, rsm->resolution);
-    if (rsm->layout != s->layout && !create_programs(set, rsm->layout, err))
-        return false;
     const int runs = run_count_of(candidates);
     const unsigned groups = (unsigned)(runs + RUN_GROUP - 1) / RUN_GROUP;
-    bind_inputs(set, rsm);
-    set_candidates(set, s->count, rsm, candidates, first);
+
+    bind_outputs(set);
+    set_candidates(set, s->count, rsm, pyramid, candidates, first);
     api->DispatchCompute(groups, 1, 1);
     api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     irb_program_use(s->scan);
     irb_program_uint(s->scan, "run_count", (unsigned)runs);
     api->DispatchCompute(1, 1, 1);
     api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    set_candidates(set, s->write, rsm, candidates, first);
+    set_candidates(set, s->write, rsm, pyramid, candidates, first);
     api->DispatchCompute(groups, 1, 1);
     api->MemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                        GL_SHADER_STORAGE_BARRIER_BIT);
@@ -252,4 +201,43 @@ bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int 
         return false;
     set->count = (int)count;
     return clear_rest(set, err) && irb_gl_check(set->gl, "vpl: sample", err);
+}
+
+/* Whether the set is of the kind, and made for the RSM and as many candidates; its programs are
+ * made anew where the RSM has another layout. */
+static bool prepare(struct irb_vpl_set *set, const struct irb_rsm *rsm, bool map, int candidates,
+                    struct irb_error *err)
+{
+    const struct irb_vpl_sampler *s = set->sampler;
+    if (map != (set->sampling == IRB_VPL_MAP))
+        return irb_fail(err, IRB_E_INTERNAL, "virtual lights: made for the sampling '%s'",
+                        irb_vpl_sampling_names[set->sampling]);
+    if (rsm->resolution != s->resolution || candidates < 1 || candidates > set->capacity)
+        return irb_fail(err, IRB_E_INTERNAL,
+                        "virtual lights: made for %d of an RSM of %d texels a side, asked for %d "
+                        "of one of %d",
+                        set->capacity, s->resolution, candidates, rsm->resolution);
+    return rsm->layout == s->layout || create_programs(set, rsm->layout, err);
+}
+
+bool irb_vpl_set_sample(struct irb_vpl_set *set, const struct irb_rsm *rsm, int samples,
+                        unsigned first, struct irb_error *err)
+{
+    const struct irb_vpl_sampler *s = set->sampler;
+    const int candidates = set->sampling == IRB_VPL_ALL ? s->resolution * s->resolution : samples;
+    return prepare(set, rsm, false, candidates, err) &&
+           (!s->pyramid || irb_pyramid_build_flux(s->pyramid, rsm, err)) &&
+           run_passes(set, rsm, s->pyramid, candidates, first, err);
+}
+
+bool irb_vpl_set_sample_map(struct irb_vpl_set *set, const struct irb_rsm *rsm,
+                            const struct irb_pyramid *pyramid, int samples, unsigned first,
+                            struct irb_error *err)
+{
+    if (pyramid->resolution != rsm->resolution)
+        return irb_fail(err, IRB_E_INTERNAL,
+                        "virtual lights: a pyramid of %d texels a side for an RSM of %d",
+                        pyramid->resolution, rsm->resolution);
+    return prepare(set, rsm, true, samples, err) &&
+           run_passes(set, rsm, pyramid, samples, first, err);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * Which RSM texel a candidate light stands on, and by what its flux is multiplied: 1/(N p) for a
- * texel chosen with probability p. SAMPLING is 0 all, 1 uniform, 2 importance, as enum
- * irb_vpl_sampling.
+ * texel chosen with probability p. SAMPLING is 0 all, 1 uniform, 2 importance, 3 map, as enum
+ * irb_vpl_sampling; the last two differ in what the pyramid was built from.
  */
 #include "frame/rsm_fetch.glsl"
 #include "lights/halton.glsl"
@@ -17,7 +17,7 @@ struct candidate {
     vec3 flux; /* Phi = Phi_p / (N p), W */
 };
 
-#if SAMPLING == 2
+#if SAMPLING >= 2
 #include "lights/warp.glsl"
 #endif
 

@@ -4,7 +4,7 @@
  */
 layout(local_size_x = 64) in;
 #include "lights/sample.glsl"
-#include "lights/vpl.glsl"
+#include "lights/virtual_light.glsl"
 
 layout(std430, binding = 1) readonly buffer Runs { uint runs[]; };
 layout(std430, binding = 0) writeonly buffer Lights { vec4 lights[]; };

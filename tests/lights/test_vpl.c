@@ -210,6 +210,60 @@ static void test_sequence_goes_on(void **state)
     fixture_frame_destroy(&f);
 }
 
+/* A map of the caller's: Phi = Phi_p/(N p_p) with p_p = map_p/sum, lights on unlit texels dropped,
+ * and the sum of the flux that of the RSM, since the map is positive. A map of zeros gives no
+ * lights. */
+static void test_map(void **state)
+{
+    (void)state;
+    enum { N = 48, SAMPLES = 4096 };
+    struct irb_error err = {0};
+    struct fixture_frame f;
+    make_cornell(&f, N);
+    const struct irb_texture_desc desc = {
+        .name = "map", .format = GL_R32F, .width = N, .height = N};
+    struct irb_texture *texture = irb_texture_create(gl, &desc, &err);
+    struct irb_pyramid *pyramid = irb_pyramid_create(gl, N, &err);
+    struct irb_vpl_set *set = irb_vpl_set_create(gl, IRB_VPL_MAP, N, SAMPLES, &err);
+    struct irb_image map, flux = fixture_read(f.rsm->flux, 4);
+    struct irb_image position = fixture_read(f.rsm->position, 4);
+    REQUIRE_OK(texture && pyramid && set && irb_image_create(&map, N, N, 1, &err));
+    double total = 0, sum[3];
+    for (size_t i = 0; i < N * N; i++)
+        total += map.data[i] = 0.1f + (float)(i % N) / N;
+    REQUIRE_OK(irb_texture_write(texture, &map, &err));
+    REQUIRE_OK(irb_pyramid_build(pyramid, texture, &err));
+    REQUIRE_OK(irb_vpl_set_sample_map(set, f.rsm, pyramid, SAMPLES, 0, &err));
+    struct vpl *vpls = read_lights(set);
+    REQUIRE_CMP(set->count, <, SAMPLES); /* the image's corners are unlit */
+    for (int i = 0; i < set->count; i++) {
+        size_t p = texel_of(&position, vpls[i].position);
+        for (size_t c = 0; c < 3; c++)
+            REQUIRE_REL(vpls[i].flux[c],
+                        flux.data[4 * p + c] * total / ((double)SAMPLES * map.data[p]), 1e-5);
+        REQUIRE_NEAR(vpls[i].position[3], 0, 0); /* a point has no area */
+    }
+    sum_flux(vpls, set->count, sum);
+    for (int c = 0; c < 3; c++)
+        REQUIRE_REL(sum[c], fixture_sum(&flux, c), 0.01);
+    assert_int_equal(irb_vpl_set_view(set).count, set->count);
+    assert_false(irb_vpl_set_sample(set, f.rsm, SAMPLES, 0, &err));
+    assert_int_equal(err.code, IRB_E_INTERNAL);
+    memset(map.data, 0, N * N * sizeof *map.data);
+    REQUIRE_OK(irb_texture_write(texture, &map, &err));
+    REQUIRE_OK(irb_pyramid_build(pyramid, texture, &err));
+    REQUIRE_OK(irb_vpl_set_sample_map(set, f.rsm, pyramid, SAMPLES, 0, &err));
+    REQUIRE_NEAR(set->count, 0, 0);
+    free(vpls);
+    irb_image_destroy(&map);
+    irb_image_destroy(&flux);
+    irb_image_destroy(&position);
+    irb_texture_destroy(texture);
+    irb_pyramid_destroy(pyramid);
+    irb_vpl_set_destroy(set);
+    fixture_frame_destroy(&f);
+}
+
 /* An RSM of the given flux; positions are 0. */
 static void fill_rsm(const struct irb_rsm *rsm, const struct irb_image *flux)
 {
@@ -286,7 +340,8 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all),        cmocka_unit_test(test_flux_converges),
         cmocka_unit_test(test_importance), cmocka_unit_test(test_sequence_goes_on),
-        cmocka_unit_test(test_few_texels), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_map),        cmocka_unit_test(test_few_texels),
+        cmocka_unit_test(test_refusals),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

@@ -9,7 +9,7 @@
  */
 #include "frame/gbuffer_fetch.glsl"
 #include "lights/form_factor.glsl"
-#include "lights/vpl.glsl"
+#include "lights/virtual_light.glsl"
 #include "methods/rsm/pixels.glsl"
 
 layout(std140, binding = 0) uniform Block { vec4 lights[VPL_VECTORS * VPL_BLOCK]; };
