@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Flux that enters the RSM texel of this fragment, W: intensity times the exact solid angle, or
- * irradiance times the texel's area. The falloff is that of the texel's centre.
+ * Flux that enters an RSM texel, W: intensity times the exact solid angle, or irradiance times the
+ * texel's area. The falloff is that of the texel's centre.
  */
 #include "frame/light.glsl"
 #include "frame/solid_angle.glsl"
@@ -9,13 +9,29 @@
 uniform int resolution;
 uniform float half_extent; /* spot: tan of the half angle; directional: half side of the beam, m */
 
-vec3 flux_in()
+float texel_side()
 {
-    float side = 2.0 * half_extent / float(resolution);
+    return 2.0 * half_extent / float(resolution);
+}
+
+float texel_falloff(ivec2 texel)
+{
     if (light_type == LIGHT_DIRECTIONAL)
-        return light_intensity * (side * side);
-    vec2 corner = floor(gl_FragCoord.xy) * side - half_extent;
-    vec2 centre = corner + 0.5 * side;
-    float cos_theta = inversesqrt(dot(centre, centre) + 1.0);
-    return light_intensity * (light_falloff(cos_theta) * texel_solid_angle(corner, side));
+        return 1.0;
+    vec2 centre = vec2(texel) * texel_side() - half_extent + 0.5 * texel_side();
+    return light_falloff(inversesqrt(dot(centre, centre) + 1.0));
+}
+
+/* Solid angle, sr, or area, m2. */
+float texel_extent(ivec2 texel)
+{
+    float side = texel_side();
+    if (light_type == LIGHT_DIRECTIONAL)
+        return side * side;
+    return texel_solid_angle(vec2(texel) * side - half_extent, side);
+}
+
+vec3 flux_in(ivec2 texel)
+{
+    return light_intensity * (texel_falloff(texel) * texel_extent(texel));
 }

@@ -15,7 +15,7 @@ void main()
     vec3 from_light = world_position - light_position;
     bool directional = light_type == LIGHT_DIRECTIONAL;
     surface s = fetch_surface(directional ? -light_direction : -from_light);
-    vec3 flux = flux_in();
+    vec3 flux = flux_in(ivec2(gl_FragCoord.xy));
     out_position = vec4(s.position, 1.0);
     out_normal = vec4(s.normal,
                       directional ? dot(from_light, light_direction) : length(from_light));

@@ -20,7 +20,7 @@ void main()
 {
     bool directional = light_type == LIGHT_DIRECTIONAL;
     surface s = fetch_surface(directional ? -light_direction : light_position - world_position);
-    vec3 flux = s.diffuse * flux_in();
+    vec3 flux = s.diffuse * flux_in(ivec2(gl_FragCoord.xy));
     vec3 n = vec3(dot(s.normal, light_right), dot(s.normal, light_up),
                   -dot(s.normal, light_direction));
     out_flux.r = flux_scale.r > 0.0 ? flux.r / flux_scale.r : 0.0;
