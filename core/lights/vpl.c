@@ -154,6 +154,7 @@ static void set_candidates(const struct irb_vpl_set *set, const struct irb_progr
     irb_program_int(program, "resolution", set->sampler->resolution);
     irb_program_uint(program, "candidates", (unsigned)candidates);
     irb_program_uint(program, "first", first);
+    irb_program_uint(program, "tiles", set->tiles > 1 ? (unsigned)set->tiles : 1u);
     irb_program_uint(program, "run_length", (unsigned)run_length_of(candidates));
 }
 

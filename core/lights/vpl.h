@@ -30,6 +30,10 @@ struct irb_vpl_set {
     enum irb_vpl_sampling sampling;
     float normal_offset; /* m: how far a light is shifted against its normal (Dachsbacher and
                             Stamminger 2005); 0, may be set before any sampling */
+    int tiles; /* of interleaved sampling (core/frame/interleave.h), to be set before sampling: the
+                  lights of one tile, those whose number has one residue modulo this, take
+                  consecutive points of the sequence, so that each tile's are spread over the map;
+                  0 or 1: all in the sequence's order */
     struct irb_vpl_sampler *sampler; /* private: programs, the flux's pyramid */
     struct irb_gl *gl;               /* borrowed */
 };

@@ -11,6 +11,16 @@ uniform int resolution;  /* texels a side of the RSM */
 uniform uint candidates; /* N; all: resolution^2 */
 uniform uint first;      /* index of the first Halton point */
 uniform uint run_length; /* candidates that one invocation walks through */
+uniform uint tiles;      /* of interleaved sampling; 1 = in the order of the sequence */
+
+/* Which point of the stretch candidate i takes: those of one residue modulo `tiles` take
+ * consecutive ones. In order, the candidates of every 9th number would share their first two digits
+ * in base 3, and so lie in one strip of the map. */
+uint point_of(uint i)
+{
+    uint tile = i % tiles;
+    return tile * (candidates / tiles) + min(tile, candidates % tiles) + i / tiles;
+}
 
 struct candidate {
     ivec2 texel;
@@ -28,13 +38,13 @@ candidate draw(uint i)
     c.texel = ivec2(int(i) % resolution, int(i) / resolution);
     c.flux = rsm_fetch_flux(c.texel);
 #elif SAMPLING == 1
-    vec2 point = halton(first + i);
+    vec2 point = halton(first + point_of(i));
     c.texel = min(ivec2(point * float(resolution)), ivec2(resolution - 1));
     float weight = float(resolution) * float(resolution) / float(candidates);
     c.flux = rsm_fetch_flux(c.texel) * weight;
 #else
     float probability;
-    c.texel = warp(halton(first + i), probability);
+    c.texel = warp(halton(first + point_of(i)), probability);
     c.flux = vec3(0.0);
     if (probability > 0.0)
         c.flux = rsm_fetch_flux(c.texel) / (float(candidates) * probability);

@@ -210,6 +210,45 @@ static void test_sequence_goes_on(void **state)
     fixture_frame_destroy(&f);
 }
 
+/* Interleaved sampling's tiles: the same lights in another order, light l of tile l mod 9 being the
+ * next of that tile's stretch; and every tile's lights reach over a third of the map's rows at
+ * least, while the sequence's own order gives each about a ninth of the flux. */
+static void test_tiles(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 100, TILES = 9, N = 64 };
+    struct irb_error err = {0};
+    struct fixture_frame f;
+    make_cornell(&f, N);
+    struct irb_image position = fixture_read(f.rsm->position, 4);
+    struct irb_vpl_set *set = sample(f.rsm, IRB_VPL_IMPORTANCE, SAMPLES, 3);
+    struct vpl *in_order = read_lights(set);
+    set->tiles = TILES;
+    REQUIRE_OK(irb_vpl_set_sample(set, f.rsm, SAMPLES, 3, &err));
+    struct vpl *tiled = read_lights(set);
+    REQUIRE_NEAR(set->count, SAMPLES, 0);
+    int next = 0;
+    for (int tile = 0; tile < TILES; tile++) {
+        size_t low[2] = {N, N}, high[2] = {0, 0};
+        for (int l = tile; l < SAMPLES; l += TILES) {
+            const struct vpl *both[2] = {&tiled[l], &in_order[l]};
+            assert_memory_equal(&tiled[l], &in_order[next++], sizeof *tiled);
+            for (int k = 0; k < 2; k++) {
+                size_t row = texel_of(&position, both[k]->position) / N;
+                low[k] = row < low[k] ? row : low[k];
+                high[k] = row > high[k] ? row : high[k];
+            }
+        }
+        REQUIRE_CMP(high[0] - low[0], >, N / 3);
+        REQUIRE_CMP(high[1] - low[1], <, N / 4);
+    }
+    free(in_order);
+    free(tiled);
+    irb_image_destroy(&position);
+    irb_vpl_set_destroy(set);
+    fixture_frame_destroy(&f);
+}
+
 /* A map of the caller's: Phi = Phi_p/(N p_p) with p_p = map_p/sum, lights on unlit texels dropped,
  * and the sum of the flux that of the RSM, since the map is positive. A map of zeros gives no
  * lights. */
@@ -340,8 +379,8 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all),        cmocka_unit_test(test_flux_converges),
         cmocka_unit_test(test_importance), cmocka_unit_test(test_sequence_goes_on),
-        cmocka_unit_test(test_map),        cmocka_unit_test(test_few_texels),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_tiles),      cmocka_unit_test(test_map),
+        cmocka_unit_test(test_few_texels), cmocka_unit_test(test_refusals),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);
