@@ -179,7 +179,7 @@ static void normal_matrix_of(const float model[16], float out[16])
 }
 
 static void draw_object(const struct irb_scene_gl *scene, const struct irb_object *object,
-                        const struct irb_program *program)
+                        const struct irb_program *program, int instances)
 {
     const struct irb_gl_api *api = &scene->gl->api;
     const struct irb_material *material = &scene->scene->materials[object->material];
@@ -197,12 +197,12 @@ static void draw_object(const struct irb_scene_gl *scene, const struct irb_objec
     irb_program_int(program, "has_diffuse_map", mapped);
     api->BindTextureUnit(DIFFUSE_MAP_UNIT,
                          mapped ? scene->textures[material->diffuse_texture]->id : 0);
-    api->DrawElements(GL_TRIANGLES, (GLsizei)object->triangle_count * 3, GL_UNSIGNED_INT,
-                      (const char *)NULL + (size_t)object->first_triangle * 12);
+    api->DrawElementsInstanced(GL_TRIANGLES, (GLsizei)object->triangle_count * 3, GL_UNSIGNED_INT,
+                               (const char *)NULL + (size_t)object->first_triangle * 12, instances);
 }
 
 static void draw_objects(const struct irb_scene_gl *scene, const struct irb_program *program,
-                         bool masked)
+                         bool masked, int instances)
 {
     irb_program_use(program);
     irb_program_int(program, "diffuse_map", DIFFUSE_MAP_UNIT);
@@ -213,25 +213,31 @@ static void draw_objects(const struct irb_scene_gl *scene, const struct irb_prog
             continue;
         if (masked)
             irb_program_float(program, "alpha_cutoff", material->alpha_cutoff);
-        draw_object(scene, object, program);
+        draw_object(scene, object, program, instances);
     }
 }
 
 void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_surface_program *program)
 {
+    scene->gl->api.Disable(GL_BLEND);
+    irb_scene_gl_draw_instances(scene, program, 1);
+}
+
+void irb_scene_gl_draw_instances(const struct irb_scene_gl *scene,
+                                 const struct irb_surface_program *program, int instances)
+{
     const struct irb_gl_api *api = &scene->gl->api;
 
     api->Disable(GL_CULL_FACE);
-    api->Disable(GL_BLEND);
     api->Disable(GL_SCISSOR_TEST);
     api->Disable(GL_STENCIL_TEST);
     api->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     api->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, FLAT_NORMALS_BINDING, scene->flat_normals->id);
     api->BindVertexArray(scene->vertex_array);
-    draw_objects(scene, program->opaque, false);
+    draw_objects(scene, program->opaque, false, instances);
     if (scene->masked)
-        draw_objects(scene, program->masked, true);
+        draw_objects(scene, program->masked, true, instances);
     api->BindVertexArray(0);
 }
 
@@ -240,10 +246,16 @@ void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_surfac
 bool irb_surface_program_create(struct irb_surface_program *out, struct irb_gl *gl,
                                 const char *name, const char *fragment, struct irb_error *err)
 {
-    const struct irb_program_desc desc = {
+    const struct irb_program_desc stages = {
         .name = name, .vertex = "frame/geometry.vert", .fragment = fragment};
-    *out = (struct irb_surface_program){.name = name, .fragment = fragment};
-    out->opaque = irb_program_create(gl, &desc, err);
+    return irb_surface_program_create_stages(out, gl, &stages, err);
+}
+
+bool irb_surface_program_create_stages(struct irb_surface_program *out, struct irb_gl *gl,
+                                       const struct irb_program_desc *stages, struct irb_error *err)
+{
+    *out = (struct irb_surface_program){.stages = *stages};
+    out->opaque = irb_program_create(gl, stages, err);
     return out->opaque != NULL;
 }
 
@@ -258,10 +270,8 @@ bool irb_surface_program_prepare(struct irb_surface_program *program,
                                  const struct irb_scene_gl *scene, struct irb_error *err)
 {
     static const char *const defines[] = {"ALPHA_MASK 1", NULL};
-    const struct irb_program_desc desc = {.name = program->name,
-                                          .vertex = "frame/geometry.vert",
-                                          .fragment = program->fragment,
-                                          .defines = defines};
+    struct irb_program_desc desc = program->stages;
+    desc.defines = defines;
     if (scene->masked && !program->masked)
         program->masked = irb_program_create(scene->gl, &desc, err);
     return !scene->masked || program->masked;

@@ -23,15 +23,21 @@ struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_sce
                                          struct irb_error *err);
 void irb_scene_gl_destroy(struct irb_scene_gl *scene);
 
-/* A program made of frame/geometry.vert and a fragment shader that includes frame/geometry.glsl, in
- * two variants: `masked`, which is NULL until a scene needs it, cuts away what alpha masks hide. */
+/* A program that draws the scene's surfaces, in two variants: `masked`, which is NULL until a scene
+ * needs it, cuts away what alpha masks hide (frame/alpha_mask.glsl). */
 struct irb_surface_program {
-    const char *name, *fragment;
+    struct irb_program_desc stages;      /* borrowed strings; no defines */
     struct irb_program *opaque, *masked; /* owned */
 };
 
+/* frame/geometry.vert and a fragment shader that includes frame/geometry.glsl. */
 bool irb_surface_program_create(struct irb_surface_program *out, struct irb_gl *gl,
                                 const char *name, const char *fragment, struct irb_error *err);
+/* Any stages. The vertex shader has the attributes and the uniform `model` of frame/geometry.vert.
+ * Strings are kept; `defines` is not for this. */
+bool irb_surface_program_create_stages(struct irb_surface_program *out, struct irb_gl *gl,
+                                       const struct irb_program_desc *stages,
+                                       struct irb_error *err);
 void irb_surface_program_destroy(struct irb_surface_program *program);
 /* Makes the variants that the scene needs. */
 bool irb_surface_program_prepare(struct irb_surface_program *program,
@@ -41,5 +47,9 @@ bool irb_surface_program_prepare(struct irb_surface_program *program,
  * view_projection and the shader's own in both variants, the framebuffer and the depth state;
  * culling and blending are turned off here. Uses texture unit 0 and shader storage binding 0. */
 void irb_scene_gl_draw(const struct irb_scene_gl *scene, const struct irb_surface_program *program);
+
+/* The same as `instances` instances of every object, with the caller's blending. */
+void irb_scene_gl_draw_instances(const struct irb_scene_gl *scene,
+                                 const struct irb_surface_program *program, int instances);
 
 #endif

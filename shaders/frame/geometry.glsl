@@ -11,25 +11,8 @@ uniform mat4 normal_matrix;
 uniform int first_triangle;    /* of the object that is drawn */
 uniform vec3 material_diffuse; /* k_d, linear */
 uniform vec4 material_specular; /* k_s; exponent alpha */
-uniform int has_diffuse_map;
-uniform sampler2D diffuse_map; /* sRGB-decoded by the sampler, trilinear, repeat */
 
-#ifdef ALPHA_MASK
-uniform float alpha_cutoff; /* of the texture's alpha */
-
-/* Leaves out what the material's mask cuts away (glTF 2.0, 3.9.4). From the texture's finest level
- * whatever the distance, as the reference does: camera, light and ray then meet the same surface,
- * where mipmaps would let leaves and meshes thin out or close with distance. In programs of its own,
- * since a shader that may discard tests depth late. */
-void cut_away()
-{
-    float alpha = has_diffuse_map != 0 ? textureLod(diffuse_map, texcoord, 0.0).a : 1.0;
-    if (alpha < alpha_cutoff)
-        discard;
-}
-#else
-void cut_away() {}
-#endif
+#include "frame/alpha_mask.glsl"
 
 /* Unit normals of all triangles at rest, computed once in double precision: exact where screen
  * space derivatives of the position are not, and one load a fragment. */
@@ -61,6 +44,6 @@ surface fetch_surface(vec3 to_viewer)
     if (has_diffuse_map != 0)
         s.diffuse *= texture(diffuse_map, texcoord).rgb;
     s.specular = material_specular;
-    cut_away(); /* last: the texture's derivatives need all pixels of a quad */
+    cut_away(texcoord); /* last: the texture's derivatives need all pixels of a quad */
     return s;
 }
