@@ -40,7 +40,7 @@ struct irb_frame_inputs {
     const struct irb_rsm *rsm;
     int frame;               /* 0.. in the sequence; settle frames are negative */
     uint64_t seed;           /* of the sequence; the same in all its frames */
-    const void *params;      /* the method's own parameter struct, resolved; may change per frame */
+    const void *params;      /* the method's own parameter struct, as this frame has it */
     struct irb_timer *timer; /* begin/end with an index into `stages`; may be NULL */
 };
 
@@ -78,7 +78,11 @@ struct irb_method {
     const char *const *stages;       /* names for timing, NULL-terminated, at most 24;
                                         not gbuffer, rsm or direct, which the core times */
 
-    /* State for one trial, for images of width x height. NULL on failure. */
+    /* State for one trial, for images of width x height. NULL on failure. A config may give
+     * parameters keys over the sequence: `params` here and in begin_sequence are those of frame 0,
+     * and every value that the option's range allows may come later. So what depends on a
+     * parameter has the size of its range's maximum, or grows in render_frame before its stages
+     * begin. */
     void *(*create)(struct irb_gl *gl, const struct irb_scene_gl *scene, int width, int height,
                     const void *params, struct irb_error *err);
     bool (*resize)(void *state, int width, int height, struct irb_error *err);

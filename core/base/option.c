@@ -13,7 +13,7 @@ static void *field_of(const struct irb_option *option, void *settings)
     return (char *)settings + option->offset;
 }
 
-static double value_of(const struct irb_option *option, const void *settings)
+double irb_option_value(const struct irb_option *option, const void *settings)
 {
     const void *field = (const char *)settings + option->offset;
     switch (option->type) {
@@ -26,7 +26,7 @@ static double value_of(const struct irb_option *option, const void *settings)
     }
 }
 
-static void store(const struct irb_option *option, void *settings, double value)
+void irb_option_store(const struct irb_option *option, void *settings, double value)
 {
     void *field = field_of(option, settings);
     switch (option->type) {
@@ -44,7 +44,7 @@ static void store(const struct irb_option *option, void *settings, double value)
 void irb_options_default(const struct irb_option *options, void *settings)
 {
     for (const struct irb_option *o = options; o->name; o++)
-        store(o, settings, o->default_value);
+        irb_option_store(o, settings, o->default_value);
 }
 
 const struct irb_option *irb_option_find(const struct irb_option *options, const char *name)
@@ -93,7 +93,7 @@ static bool set_enum(const struct irb_option *option, void *settings, const char
     struct irb_str list = {0};
     for (int i = 0; option->choices[i]; i++) {
         if (!strcmp(option->choices[i], text)) {
-            store(option, settings, i);
+            irb_option_store(option, settings, i);
             irb_str_free(&list);
             return true;
         }
@@ -119,7 +119,7 @@ static bool set_number(const struct irb_option *option, void *settings, const ch
         return irb_fail(err, IRB_E_INPUT, "%s: expected %s in [%g, %g]%s%s; found '%s'",
                         option->name, whole ? "a whole number" : "a number", option->min,
                         option->max, *option->unit ? " " : "", option->unit, text);
-    store(option, settings, value);
+    irb_option_store(option, settings, value);
     return true;
 }
 
@@ -136,7 +136,7 @@ bool irb_option_set(const struct irb_option *options, void *settings, const char
     bool value;
     if (!parse_bool(text, &value))
         return irb_fail(err, IRB_E_INPUT, "%s: expected true or false; found '%s'", name, text);
-    store(option, settings, value);
+    irb_option_store(option, settings, value);
     return true;
 }
 
@@ -152,9 +152,8 @@ static void print_float(double value, struct irb_str *out)
     irb_str_printf(out, "%s", text);
 }
 
-void irb_option_print(const struct irb_option *option, const void *settings, struct irb_str *out)
+void irb_option_print_value(const struct irb_option *option, double value, struct irb_str *out)
 {
-    double value = value_of(option, settings);
     switch (option->type) {
     case IRB_TYPE_BOOL:
         irb_str_printf(out, "%s", value != 0 ? "true" : "false");
@@ -170,25 +169,17 @@ void irb_option_print(const struct irb_option *option, const void *settings, str
     }
 }
 
+void irb_option_print(const struct irb_option *option, const void *settings, struct irb_str *out)
+{
+    irb_option_print_value(option, irb_option_value(option, settings), out);
+}
+
 bool irb_option_is_default(const struct irb_option *option, const void *settings)
 {
-    double value = value_of(option, settings);
+    double value = irb_option_value(option, settings);
     if (option->type == IRB_TYPE_FLOAT)
         return (float)value == (float)option->default_value;
     return value == option->default_value;
-}
-
-void irb_options_print_changed(const struct irb_option *options, const void *settings,
-                               struct irb_str *out)
-{
-    bool first = true;
-    for (const struct irb_option *o = options; o->name; o++) {
-        if (irb_option_is_default(o, settings))
-            continue;
-        irb_str_printf(out, "%s%s=", first ? "" : ":", o->name);
-        irb_option_print(o, settings, out);
-        first = false;
-    }
 }
 
 void irb_options_hash(const struct irb_option *options, const void *settings, struct irb_hash *hash)

@@ -68,12 +68,14 @@ bool irb_option_set(const struct irb_option *options, void *settings, const char
 
 /* The field's value as irb_option_set would read it (appended to out). */
 void irb_option_print(const struct irb_option *option, const void *settings, struct irb_str *out);
+/* Likewise a value that irb_option_value() gave. */
+void irb_option_print_value(const struct irb_option *option, double value, struct irb_str *out);
+
+/* The field as a number (bool 0/1, enum index), and back; it must be in range. */
+double irb_option_value(const struct irb_option *option, const void *settings);
+void irb_option_store(const struct irb_option *option, void *settings, double value);
 
 bool irb_option_is_default(const struct irb_option *option, const void *settings);
-
-/* Appends "name=value:name=value" for what differs from the defaults ("" where nothing does). */
-void irb_options_print_changed(const struct irb_option *options, const void *settings,
-                               struct irb_str *out);
 
 /* Adds every name and value to a hash. */
 void irb_options_hash(const struct irb_option *options, const void *settings,

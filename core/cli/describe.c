@@ -103,7 +103,7 @@ static void show_trial(const struct irb_trial *trial)
     struct irb_str values = {0};
     for (const struct irb_option *o = trial->method->params; o->name; o++) {
         irb_str_printf(&values, " %s=", o->name);
-        irb_option_print(o, trial->params, &values);
+        irb_trial_print(trial, o, &values);
     }
     printf("  %s\n     %s\n", trial->name, irb_str_text(&values));
     irb_str_free(&values);

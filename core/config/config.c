@@ -341,6 +341,7 @@ struct irb_key irb_config_key(const struct irb_config *config)
     for (int i = 0; i < config->trial_count; i++) {
         irb_hash_string(hash, config->trials[i].method->name);
         irb_options_hash(config->trials[i].method->params, config->trials[i].params, hash);
+        irb_trial_hash_tracks(&config->trials[i], hash);
     }
     irb_config_hash_seeds(config, hash);
     return irb_hash_finish(hash);

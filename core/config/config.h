@@ -47,10 +47,27 @@ struct irb_scene_entry {
     int region_count;
 };
 
+/* A parameter whose value changes over the sequence. Before its first key it has the first key's
+ * value, behind its last key the last one's. */
+enum irb_track_interpolation { IRB_TRACK_STEP, IRB_TRACK_LINEAR };
+extern const char *const irb_track_interpolation_names[]; /* "step", "linear", NULL */
+struct irb_track_key {
+    int frame;    /* 0..; keys are in rising order */
+    double value; /* bool 0/1, enum index */
+};
+struct irb_track {
+    const struct irb_option *option;            /* one of the method's; borrowed */
+    enum irb_track_interpolation interpolation; /* LINEAR of numbers only; INT is rounded */
+    struct irb_track_key *keys;                 /* owned */
+    int key_count;
+};
+
 struct irb_trial {
     const struct irb_method *method;
-    void *params; /* the method's parameter struct; owned */
-    char *name;   /* "rsm:mode=importance:samples=400": only what differs from the defaults */
+    void *params;             /* the method's parameter struct, as frame 0 has it; owned */
+    struct irb_track *tracks; /* of the parameters that change; owned */
+    int track_count;
+    char *name; /* "rsm:mode=importance:samples=400@0+100@8": only what differs from the defaults */
     /* Set by a run, which takes each trial of a config once for each seed: */
     int seed;
     char *folder; /* of its files, below the scene's: NAME, or NAME/seed-2 with several seeds */
@@ -80,10 +97,22 @@ bool irb_config_load(struct irb_config *config, const char *path, const char *co
                      const struct irb_registry *registry, struct irb_error *err);
 void irb_config_destroy(struct irb_config *config);
 
-/* Parses "method:option=value:option=value" into a trial. */
+/* Parses "method:option=value:option=value" into a trial. A value may be "32@0+64@4": 32 from frame
+ * 0 and 64 from frame 4 on; or "32@0..64@4": from 32 to 64 in a straight line. */
 bool irb_trial_parse(struct irb_trial *trial, const char *text, const struct irb_registry *registry,
                      struct irb_error *err);
 void irb_trial_destroy(struct irb_trial *trial);
+
+/* The parameters of one frame, into the params_size bytes at `out`. Settle frames are negative and
+ * have those of frame 0. */
+void irb_trial_params(const struct irb_trial *trial, int frame, void *out);
+/* Appends a parameter as irb_trial_parse reads it. */
+void irb_trial_print(const struct irb_trial *trial, const struct irb_option *option,
+                     struct irb_str *out);
+/* Whether it has its default value in all frames. */
+bool irb_trial_is_default(const struct irb_trial *trial, const struct irb_option *option);
+/* Whether it changes over the sequence. */
+bool irb_trial_has_track(const struct irb_trial *trial, const struct irb_option *option);
 
 /* The region in pixels of a width x height image: x0, y0, x1, y1, the last two exclusive. Fractions
  * are rounded to the nearest pixel edge. False where no pixel is in it or it leaves the image. */

@@ -98,7 +98,16 @@
     X("rotate", "[x, y, z, degrees]", "axis and angle, counter-clockwise seen from its tip")       \
     X("scale", "number or [x, y, z]", "along the world's axes, before it is turned; 1 by default")
 
-/* Of all three. */
+/* Instead of a parameter's value: values over the sequence. */
+#define IRB_CONFIG_TRACK_KEYS(X)                                                                   \
+    X("keys", "list of [frame, value]",                                                            \
+      "whole frames that rise from key to key; before the first and behind the last key its "      \
+      "value holds")                                                                               \
+    X("interpolation", "step|linear",                                                              \
+      "step, the default: each value holds until the next key; linear: of numbers, whole ones "    \
+      "are rounded")
+
+/* Of camera, light and objects. */
 #define IRB_CONFIG_KEY_TIME(X)                                                                     \
     X("frame", "number", "time of the key in frames; rises from key to key")
 
@@ -119,7 +128,8 @@
     S("`animation`", IRB_CONFIG_ANIMATION_KEYS)                                                    \
     S("An item of `objects`", IRB_CONFIG_OBJECT_SETTINGS)                                          \
     S("An item of `objects: keys`", IRB_CONFIG_OBJECT_KEYFRAME)                                    \
-    S("An item of `regions`", IRB_CONFIG_REGION_KEYS)
+    S("An item of `regions`", IRB_CONFIG_REGION_KEYS)                                              \
+    S("A parameter with keys", IRB_CONFIG_TRACK_KEYS)
 
 /* The names alone, for lists of what is allowed. */
 #define IRB_CONFIG_KEY_NAME(name, value, doc) name,

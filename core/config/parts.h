@@ -56,8 +56,19 @@ bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
 bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
                      struct irb_error *err);
 void irb_trial_rename(struct irb_trial *trial);
-/* irb_option_set() on its parameters. */
+/* irb_option_set() on its parameters; `text` may hold keys. */
 bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
                    struct irb_error *err);
+
+/* Parameters with keys (tracks.c): from text, from a config's map; the parameter has one value
+ * again; what they add to the config's key. */
+bool irb_track_is_text(const char *text);
+bool irb_trial_parse_track(struct irb_trial *trial, const struct irb_option *option,
+                           const char *text, struct irb_error *err);
+bool irb_trial_read_track(struct irb_trial *trial, const struct irb_option *option,
+                          struct irb_yaml *yaml, irb_yaml_node map, struct irb_error *err);
+void irb_trial_drop_track(struct irb_trial *trial, const struct irb_option *option);
+void irb_trial_destroy_tracks(struct irb_trial *trial);
+void irb_trial_hash_tracks(const struct irb_trial *trial, struct irb_hash *hash);
 
 #endif

@@ -13,7 +13,7 @@ enum { MOST_PARAMS = 128 }; /* of a method */
 struct sweep {
     struct irb_yaml *yaml;
     const struct irb_method *method;
-    irb_yaml_node values[MOST_PARAMS]; /* a single value or a list of them */
+    irb_yaml_node values[MOST_PARAMS]; /* a value, a map of its keys, or a list of these */
     irb_sweep_fn fn;
     void *user;
 };
@@ -59,6 +59,8 @@ static bool merge(struct sweep *s, irb_yaml_node map, struct irb_error *err)
 static bool set_value(struct sweep *s, struct irb_trial *trial, const struct irb_option *option,
                       irb_yaml_node value, struct irb_error *err)
 {
+    if (value->type == YAML_MAPPING_NODE)
+        return irb_trial_read_track(trial, option, s->yaml, value, err);
     const char *text = irb_yaml_text(s->yaml, value, option->name, err);
     if (!text)
         return false;
@@ -83,7 +85,7 @@ static bool check_list(struct sweep *s, const struct irb_option *option, irb_yam
         ok = set_value(s, &scratch, option, item, err);
         if (!ok)
             break;
-        irb_option_print(option, scratch.params, &text);
+        irb_trial_print(&scratch, option, &text);
         before[i] = text.text;
         for (int j = 0; ok && j < i; j++)
             if (!strcmp(before[i], before[j]))

@@ -24,12 +24,16 @@ bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
 
 void irb_trial_rename(struct irb_trial *trial)
 {
-    struct irb_str changed = {0};
-    irb_options_print_changed(trial->method->params, trial->params, &changed);
+    struct irb_str name = {0};
+    irb_str_printf(&name, "%s", trial->method->name);
+    for (const struct irb_option *o = trial->method->params; o->name; o++) {
+        if (irb_trial_is_default(trial, o))
+            continue;
+        irb_str_printf(&name, ":%s=", o->name);
+        irb_trial_print(trial, o, &name);
+    }
     free(trial->name);
-    trial->name = irb_asprintf("%s%s%s", trial->method->name, changed.length ? ":" : "",
-                               irb_str_text(&changed));
-    irb_str_free(&changed);
+    trial->name = name.text;
 }
 
 bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
@@ -39,11 +43,18 @@ bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
     if (!method->params->name)
         return irb_fail(err, IRB_E_INPUT, "unknown key '%.64s'; %s has no parameters", name,
                         method->name);
-    return irb_option_set(method->params, trial->params, name, text, err);
+    const struct irb_option *option = irb_option_find(method->params, name);
+    if (option && irb_track_is_text(text))
+        return irb_trial_parse_track(trial, option, text, err);
+    if (!irb_option_set(method->params, trial->params, name, text, err))
+        return false;
+    irb_trial_drop_track(trial, option);
+    return true;
 }
 
 void irb_trial_destroy(struct irb_trial *trial)
 {
+    irb_trial_destroy_tracks(trial);
     free(trial->params);
     free(trial->name);
     free(trial->folder);

@@ -26,6 +26,7 @@ struct trial_run {
     const struct irb_trial *trial;
     int64_t id;
     void *state;    /* the method's; NULL when there is nothing to render */
+    void *params;   /* of the frame that is being rendered; owned */
     int last_frame; /* last frame that has to be rendered, -1 for none */
     struct irb_timer *timer;
     int64_t bytes; /* of GL objects that the method holds */
@@ -69,9 +70,9 @@ static char *params_json(const struct irb_trial *trial)
     irb_str_printf(&json, "{");
     for (const struct irb_option *o = trial->method->params; o->name; o++) {
         value.length = 0;
-        irb_option_print(o, trial->params, &value);
+        irb_trial_print(trial, o, &value);
         irb_str_printf(&json, "%s\"%s\": ", o == trial->method->params ? "" : ", ", o->name);
-        if (o->type == IRB_TYPE_ENUM)
+        if (o->type == IRB_TYPE_ENUM || irb_trial_has_track(trial, o))
             irb_str_json_string(&json, irb_str_text(&value));
         else
             irb_str_printf(&json, "%s", irb_str_text(&value));
@@ -111,6 +112,9 @@ static bool create_trial_state(struct scene_run *scene, struct trial_run *trial,
     if (scene->sequence->moves && (method->needs & IRB_NEEDS_STATIC_GEOMETRY))
         return irb_fail(err, IRB_E_USAGE, "%s: needs objects that rest, but those of %s move",
                         method->name, scene->sequence->entry->name);
+    trial->params = calloc(1, method->params_size ? method->params_size : 1);
+    if (!trial->params)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for the parameters of %s", method->name);
     trial->timer = irb_timer_create(scene->run->gl, err);
     if (!trial->timer)
         return false;
@@ -130,6 +134,7 @@ static void close_scene(struct scene_run *scene)
         if (trial->state)
             trial->trial->method->destroy(trial->state);
         irb_timer_destroy(trial->timer);
+        free(trial->params);
     }
     free(scene->trials);
     irb_timer_destroy(scene->timer);
@@ -198,6 +203,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
                          struct irb_error *err)
 {
     const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
+    irb_trial_params(trial->trial, frame, trial->params);
     struct irb_frame_inputs inputs = {
         .scene = scene->scene,
         .light = &pose->light,
@@ -206,7 +212,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
         .rsm = scene->slim_rsm ? scene->slim_rsm : scene->rsm,
         .frame = frame,
         .seed = (uint64_t)trial->trial->seed,
-        .params = trial->trial->params,
+        .params = trial->params,
         .timer = trial->timer,
     };
     int64_t before = scene->run->gl->bytes;

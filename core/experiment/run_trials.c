@@ -34,6 +34,18 @@ static bool select_trials(bool wanted[IRB_MOST_TRIALS], const struct irb_config 
     return true;
 }
 
+/* A trial with many parameters or keys has a longer name than a file may have. Malloc'ed. */
+static char *folder_name(const char *trial)
+{
+    enum { LONGEST = 200, KEPT = 160 };
+    if (strlen(trial) <= LONGEST)
+        return irb_strdup(trial);
+    struct irb_hash *hash = irb_hash_create();
+    irb_hash_string(hash, trial);
+    struct irb_key key = irb_hash_finish(hash);
+    return irb_asprintf("%.*s-%.8s", KEPT, trial, key.hex);
+}
+
 bool irb_run_trials(struct irb_config *selected, const struct irb_config *config,
                     const struct irb_run_options *options, struct irb_error *err)
 {
@@ -51,9 +63,10 @@ bool irb_run_trials(struct irb_config *selected, const struct irb_config *config
             struct irb_trial *trial = &selected->trials[selected->trial_count++];
             *trial = config->trials[i];
             trial->seed = config->seeds[s];
-            trial->folder = config->seed_count > 1
-                                ? irb_asprintf("%s/seed-%d", trial->name, trial->seed)
-                                : irb_strdup(trial->name);
+            char *name = folder_name(trial->name);
+            trial->folder = config->seed_count > 1 ? irb_asprintf("%s/seed-%d", name, trial->seed)
+                                                   : irb_strdup(name);
+            free(name);
         }
     }
     return true;

@@ -26,6 +26,21 @@ static struct settings defaults(void)
     return s;
 }
 
+/* As text, as a number and back. */
+static void expect_printed(const struct settings *s, const char *name, const char *expected)
+{
+    const struct irb_option *option = irb_option_find(options, name);
+    struct irb_str text = {0};
+    irb_option_print(option, s, &text);
+    assert_string_equal(irb_str_text(&text), expected);
+    struct settings other = defaults();
+    irb_option_store(option, &other, irb_option_value(option, s));
+    text.length = 0;
+    irb_option_print(option, &other, &text);
+    assert_string_equal(irb_str_text(&text), expected);
+    irb_str_free(&text);
+}
+
 static void test_defaults_and_printing(void **state)
 {
     (void)state;
@@ -33,15 +48,14 @@ static void test_defaults_and_printing(void **state)
     assert_int_equal(s.samples, 400);
     assert_int_equal(s.mode, 1);
     assert_true(s.on);
-    struct irb_str text = {0};
-    irb_options_print_changed(options, &s, &text);
-    assert_string_equal(irb_str_text(&text), "");
+    for (const struct irb_option *o = options; o->name; o++)
+        assert_true(irb_option_is_default(o, &s));
     struct irb_error err;
     REQUIRE_OK(irb_option_set(options, &s, "mode", "all", &err));
     REQUIRE_OK(irb_option_set(options, &s, "clamp", "0.3", &err));
-    irb_options_print_changed(options, &s, &text);
-    assert_string_equal(irb_str_text(&text), "mode=all:clamp=0.3");
-    irb_str_free(&text);
+    expect_printed(&s, "mode", "all");
+    expect_printed(&s, "clamp", "0.3");
+    expect_printed(&s, "samples", "400");
 }
 
 static void expect_refusal(const char *name, const char *value, const char *words)

@@ -343,6 +343,23 @@ static void test_matrix(void **state)
                                         "rsm:samples=3", "rsm:samples=4", NULL});
 }
 
+static void test_tracks(void **state)
+{
+    (void)state;
+    expect_trials("  - rsm: {samples: {keys: [[0, 32], [4, 64]]}}\n"
+                  "  - rsm: {clamp: {interpolation: linear, keys: [[1, 0.5], [4, 2]]}, mode: all}\n"
+                  "  - rsm: {shared: {keys: [[0, yes], [3, no]], interpolation: step}}\n"
+                  "  - rsm: {samples: 5@0+7@1}\n",
+                  (const char *const[]){"rsm:samples=32@0+64@4", "rsm:mode=all:clamp=0.5@1..2@4",
+                                        "rsm:shared=true@0+false@3", "rsm:samples=5@0+7@1", NULL});
+    /* as an item of a list, and in a matrix; a plain value after it has no keys */
+    expect_trials(
+        "  - rsm: {samples: [{keys: [[0, 1], [2, 3]]}, 9], mode: all}\n"
+        "  - rsm: {samples: {keys: [[0, 4], [2, 3]]}, matrix: [{clamp: 1}, {samples: 8}]}\n",
+        (const char *const[]){"rsm:mode=all:samples=1@0+3@2", "rsm:mode=all:samples=9",
+                              "rsm:samples=4@0+3@2:clamp=1", "rsm:samples=8", NULL});
+}
+
 static void expect_seeds(const char *line, const char *override, int count, const int *seeds)
 {
     struct irb_config c;
@@ -376,6 +393,14 @@ static struct irb_key key_with(const char *text, const char *override)
     return key;
 }
 
+static struct irb_key key_of_samples(const char *samples)
+{
+    char *text = irb_asprintf("scene: cornell\ntrials: ['rsm:samples=%s']", samples);
+    struct irb_key key = key_with(text, NULL);
+    free(text);
+    return key;
+}
+
 static void test_key(void **state)
 {
     (void)state;
@@ -387,6 +412,13 @@ static void test_key(void **state)
     assert_string_equal(
         key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,
         key_with("trials: [{rsm: {mode: all}}]\nscenes: [{scene: cornell}]", NULL).hex);
+    assert_string_equal(
+        key_with("scene: cornell\ntrials: [{rsm: {samples: {keys: [[0, 1], [2, 3]]}}}]", NULL).hex,
+        key_with("scene: cornell\ntrials: ['rsm:samples=1@0+3@2']", NULL).hex);
+    static const char *const tracks[] = {"1@0+3@2", "1@0..3@2", "1@0+4@2", "1@0+3@1", "1"};
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < i; j++)
+            assert_string_not_equal(key_of_samples(tracks[i]).hex, key_of_samples(tracks[j]).hex);
     assert_string_equal(key_with("scene: cornell\nseeds: [1]\ntrials: [rsm]", NULL).hex,
                         key_with("scene: cornell\ntrials: [rsm]", NULL).hex);
     assert_string_equal(
@@ -438,7 +470,8 @@ int main(void)
         cmocka_unit_test(test_aliases),   cmocka_unit_test(test_environment),
         cmocka_unit_test(test_overrides), cmocka_unit_test(test_key),
         cmocka_unit_test(test_sweeps),    cmocka_unit_test(test_matrix),
-        cmocka_unit_test(test_seeds),     cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_tracks),    cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_regions),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

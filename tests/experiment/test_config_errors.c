@@ -451,7 +451,8 @@ static void test_trials(void **state)
                  "@:3:18: rsm: clamp: expected a number in [0, 10] m; found '1e9'");
     expect_trial("rsm: {samples: [4, [9]]}",
                  "@:3:24: samples: expected a single value, found a list");
-    expect_trial("rsm: {samples: {a: 4}}", "@:3:20: samples: expected a single value, found a map");
+    expect_trial("rsm: {samples: {a: 4}}",
+                 "@:3:21: samples: unknown key 'a'; expected one of: keys, interpolation");
     expect_trial("rsm: {samples: 4, samples: 4}",
                  "@:3:23: rsm: 'samples' stands here twice, first in line 3");
     expect_trial("rsm: mode", "@:3:10: rsm: expected a map of keys, found a single value");
@@ -473,7 +474,9 @@ static void test_sweeps(void **state)
     expect_trial("rsm: {samples: [4, 0]}",
                  "@:3:24: rsm: samples: expected a whole number in [1, 4096]; found '0'");
     expect_trial("rsm: {samples: [4, {a: 3}]}",
-                 "@:3:24: samples: expected a single value, found a map");
+                 "@:3:25: samples: unknown key 'a'; expected one of: keys, interpolation");
+    expect_trial("rsm: {samples: [4, {keys: [[0, 4], [1, 4]]}]}",
+                 "@:3:24: rsm.samples: 4 stands here twice");
     expect_trial("rsm: {mode: [all, al]}",
                  "@:3:23: rsm: mode: expected one of all, uniform, importance; found 'al'");
     expect_trial("rsm: {clamp: [1, 2, 1.0]}", "@:3:25: rsm.clamp: 1 stands here twice");
@@ -515,6 +518,55 @@ static char *numbers(int count)
         irb_str_printf(&text, "%s%d", i > 1 ? ", " : "[", i);
     irb_str_printf(&text, "]");
     return text.text;
+}
+
+static void expect_keys(const char *map, const char *expected)
+{
+    char *text = irb_asprintf("rsm: {samples: {%s}}", map);
+    expect_trial(text, expected);
+    free(text);
+}
+
+static void test_tracks(void **state)
+{
+    (void)state;
+    expect_keys("key: 3", "@:3:21: samples: unknown key 'key'; did you mean 'keys'?");
+    expect_keys("interpolation: step",
+                "@:3:20: samples: keys: expected a list of [frame, value], found nothing");
+    expect_keys("keys: 32",
+                "@:3:27: samples: keys: expected a list of [frame, value], found a single value");
+    expect_keys("keys: []",
+                "@:3:27: samples: keys: expected a list of [frame, value], found an empty one");
+    expect_keys("keys: [0, 32]",
+                "@:3:28: samples: keys: expected [frame, value], found a single value");
+    expect_keys("keys: [[0, 32, 4]]",
+                "@:3:28: samples: keys: expected [frame, value], found another list");
+    expect_keys("keys: [[0, 32], [4, 9999]]",
+                "@:3:41: rsm: samples: expected a whole number in [1, 4096]; found '9999'");
+    expect_keys("keys: [[0, [32]]]", "@:3:32: samples: expected a single value, found a list");
+    expect_keys("keys: [[-1, 32]]",
+                "@:3:29: samples: frame: expected a whole number in [0, 1e+06]; found '-1'");
+    expect_keys("keys: [[0.5, 32]]",
+                "@:3:29: samples: frame: expected a whole number in [0, 1e+06]; found '0.5'");
+    expect_keys("keys: [[4, 32], [4, 64]]",
+                "@:3:38: samples: frame: expected above 4, the key before it, found 4");
+    expect_keys("keys: [[0, 32]], interpolation: cubic",
+                "@:3:53: samples: interpolation: expected one of step, linear; found 'cubic'");
+    expect_trial("rsm: {mode: {keys: [[0, all], [4, uniform]], interpolation: linear}}",
+                 "@:3:65: mode: expected steps between its values, found linear");
+    expect_trial("rsm:samples=32@0+64@4\n  - rsm: {samples: {keys: [[0, 32], [4, 64]]}}",
+                 "@:4:5: trial 'rsm:samples=32@0+64@4' stands here twice");
+    struct irb_str keys = {0};
+    for (int i = 0; i < 257; i++)
+        irb_str_printf(&keys, "%s[%d, %d]", i ? ", " : "keys: [", i, i + 1);
+    irb_str_printf(&keys, "]");
+    char *text = irb_asprintf("rsm: {samples: {%s}}", irb_str_text(&keys));
+    char *expected = irb_asprintf("@:3:%d: samples: expected at most 256 keys, found more",
+                                  (int)(strstr(text, "[256,") - text) + 5);
+    expect_trial(text, expected);
+    free(expected);
+    free(text);
+    irb_str_free(&keys);
 }
 
 static void test_too_many(void **state)
@@ -625,7 +677,7 @@ int main(void)
         cmocka_unit_test(test_trials),       cmocka_unit_test(test_one_line),
         cmocka_unit_test(test_overrides),    cmocka_unit_test(test_sweeps),
         cmocka_unit_test(test_matrix),       cmocka_unit_test(test_too_many),
-        cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_tracks),       cmocka_unit_test(test_seeds),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -17,6 +17,12 @@ static void expect_name(const char *text, const char *name)
     struct irb_trial again;
     REQUIRE_OK(irb_trial_parse(&again, trial.name, &mock_registry, &err));
     assert_string_equal(again.name, name);
+    for (int frame = -1; frame < 12; frame++) {
+        struct mock_params a, b;
+        irb_trial_params(&trial, frame, &a);
+        irb_trial_params(&again, frame, &b);
+        assert_memory_equal(&a, &b, trial.method->params_size);
+    }
     assert_memory_equal(again.params, trial.params, trial.method->params_size);
     irb_trial_destroy(&again);
     irb_trial_destroy(&trial);
@@ -49,6 +55,59 @@ static void test_values(void **state)
     irb_trial_destroy(&trial);
 }
 
+static struct mock_params params_at(const struct irb_trial *trial, int frame)
+{
+    struct mock_params params;
+    irb_trial_params(trial, frame, &params);
+    return params;
+}
+
+static void test_track_names(void **state)
+{
+    (void)state;
+    expect_name("rsm:samples=32@0+64@4", "rsm:samples=32@0+64@4");
+    expect_name("rsm:clamp=0.50@2..1@7:samples=32@0+0064@4+400@5",
+                "rsm:samples=32@0+64@4+400@5:clamp=0.5@2..1@7");
+    expect_name("rsm:shared=on@1+off@2:mode=all@0+importance@9",
+                "rsm:mode=all@0+importance@9:shared=true@1+false@2");
+    /* also where frame 0 has the default */
+    expect_name("rsm:samples=400@0+9@1", "rsm:samples=400@0+9@1");
+    /* what does not change has no keys */
+    expect_name("rsm:samples=32@0", "rsm:samples=32");
+    expect_name("rsm:samples=32@3+32@5", "rsm:samples=32");
+    expect_name("rsm:samples=400@3..400@5", "rsm");
+}
+
+static void test_track_values(void **state)
+{
+    (void)state;
+    struct irb_trial trial;
+    struct irb_error err = {0};
+    REQUIRE_OK(irb_trial_parse(
+        &trial,
+        "rsm:samples=32@2+64@4:clamp=1@2..2@6..0@7:mode=all@0+importance@3:shared=no@0+on@1",
+        &mock_registry, &err));
+    static const int samples[] = {32, 32, 32, 32, 64, 64, 64, 64, 64};
+    static const double clamp[] = {1, 1, 1, 1.25, 1.5, 1.75, 2, 0, 0};
+    for (int frame = 0; frame < 9; frame++) {
+        struct mock_params p = params_at(&trial, frame);
+        assert_int_equal(p.samples, samples[frame]);
+        REQUIRE_NEAR(p.clamp, clamp[frame], 0);
+        assert_int_equal(p.mode, frame < 3 ? 0 : 2);
+        assert_int_equal(p.shared, frame > 0);
+    }
+    /* settling */
+    assert_int_equal(params_at(&trial, -16).samples, 32);
+    assert_int_equal(((const struct mock_params *)trial.params)->samples, 32);
+    irb_trial_destroy(&trial);
+    /* whole numbers are rounded: 10, 10.75, 11.5, 12.25, 13 */
+    REQUIRE_OK(irb_trial_parse(&trial, "rsm:samples=10@0..13@4", &mock_registry, &err));
+    static const int rounded[] = {10, 11, 12, 12, 13};
+    for (int frame = 0; frame < 5; frame++)
+        assert_int_equal(params_at(&trial, frame).samples, rounded[frame]);
+    irb_trial_destroy(&trial);
+}
+
 static void expect_refusal(const char *text, const char *words)
 {
     struct irb_trial trial;
@@ -78,13 +137,32 @@ static void test_refusals(void **state)
     expect_refusal("rsm:mode", "expected option=value, found 'mode'");
     expect_refusal("rsm:=1", "expected option=value, found '=1'");
     expect_refusal("rsm:mode=all:mode=all", "'mode' is given twice");
+    expect_refusal("rsm:samples=32@",
+                   "samples: frame: expected a whole number in [0, 1e+06]; found ''");
+    expect_refusal("rsm:samples=32@0+", "samples: expected VALUE@FRAME, found ''");
+    expect_refusal("rsm:samples=32@0+64", "samples: expected VALUE@FRAME, found '64'");
+    expect_refusal("rsm:samples=@0", "samples: expected a whole number in [1, 4096]; found ''");
+    expect_refusal("rsm:samples=32@0+0@4",
+                   "samples: expected a whole number in [1, 4096]; found '0'");
+    expect_refusal("rsm:samples=32@4+64@4",
+                   "samples: frame: expected above 4, the key before it, found 4");
+    expect_refusal("rsm:samples=32@0,64@4",
+                   "samples: frame: expected a whole number in [0, 1e+06]; found '0,64@4'");
+    expect_refusal("rsm:samples=1@0+2@4..3@5",
+                   "samples: expected '+' (steps) or '..' (linear) between all keys, found both");
+    expect_refusal("rsm:mode=all@0..uniform@4",
+                   "mode: expected steps between its values, found linear");
+    expect_refusal("rsm:shared=on@0..off@4",
+                   "shared: expected steps between its values, found linear");
+    expect_refusal("rsm:mode=all@0+al@4",
+                   "mode: expected one of all, uniform, importance; found 'al'");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_names),       cmocka_unit_test(test_values),
+        cmocka_unit_test(test_track_names), cmocka_unit_test(test_track_values),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
