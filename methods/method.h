@@ -22,7 +22,7 @@
 #include "core/frame/rsm.h"
 #include "core/gl/timer.h"
 
-#define IRB_METHOD_ABI 1
+#define IRB_METHOD_ABI 2
 
 /* What a method needs beyond the frame it is given. */
 enum irb_method_needs {
@@ -42,16 +42,31 @@ struct irb_frame_inputs {
     uint64_t seed;           /* of the sequence; the same in all its frames */
     const void *params;      /* the method's own parameter struct, as this frame has it */
     struct irb_timer *timer; /* begin/end with an index into `stages`; may be NULL */
+    bool debug;              /* debug layers are wanted; else nobody looks at them, make none. All
+                                other output is the same with and without. */
 };
 
-enum { IRB_MAX_DEBUG_LAYERS = 8, IRB_MAX_STATISTICS = 8 };
+/* What a debug layer holds, which decides how it is stored and shown. */
+enum irb_debug_kind {
+    IRB_DEBUG_COLOUR,   /* display-referred RGB in [0,1]: as it is */
+    IRB_DEBUG_RADIANCE, /* linear RGB (W/(m2 sr), W/m2): tone-mapped like the previews */
+    IRB_DEBUG_SCALAR,   /* one number a texel (R32F; R32UI: a whole number, exact up to 2^24):
+                           grey, from 0 to its largest finite value */
+    IRB_DEBUG_DISTANCE, /* m, +Inf where there is nothing (R32F; R32UI: the float's bits): grey
+                           likewise, what is not finite black */
+};
+
+enum { IRB_MAX_DEBUG_LAYERS = 16, IRB_MAX_STATISTICS = 16 };
 
 struct irb_frame_output {
     const struct irb_texture *irradiance; /* RGBA32F, W/m2, G-buffer resolution; the method's */
     const struct irb_texture *radiance;   /* NULL, or W/(m2 sr) that is added as it is */
+    /* For people, where inputs->debug asks for it: made outside all stages. */
     struct {
-        const char *name; /* "cluster-map" */
-        const struct irb_texture *texture;
+        const char *name; /* "cluster-map": at most 31 of A-Z, a-z, 0-9, '-' and '_', each once */
+        const struct irb_texture *texture; /* the method's; of any size, an array's layers below one
+                                              another; at most 16384 texels a side */
+        enum irb_debug_kind kind;
     } debug[IRB_MAX_DEBUG_LAYERS];
     int debug_count;
     /* Reflected flux of the RSM (W, mean of the channels) that the method left out or clamped away,

@@ -25,7 +25,7 @@ struct irb_cli_bound {
 struct irb_cli {
     const char *arguments[IRB_CLI_MAX_ARGUMENTS];
     int argument_count;
-    const char *overrides[IRB_CLI_MAX_ARGUMENTS + 1]; /* --set and --seed, NULL-terminated */
+    const char *overrides[IRB_CLI_MAX_ARGUMENTS + 1]; /* --set and its like, NULL-terminated */
     int override_count;
     const char *only[IRB_CLI_MAX_ARGUMENTS]; /* --only, trial names */
     int only_count;

@@ -120,6 +120,8 @@ static bool show_config(struct irb_cli *cli, const char *path, struct irb_error 
         printf(" %d", config.seeds[i]);
     printf("\n\nrendering:\n");
     print_options(irb_render_options, &config.render);
+    printf("\noutput:\n");
+    print_options(irb_output_options, &config.output);
     printf("\nreference:\n");
     print_options(irb_reference_options, &config.reference);
     printf("\nscenes:\n");

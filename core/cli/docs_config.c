@@ -99,6 +99,10 @@ void irb_docs_config(FILE *out, const struct irb_cli *cli)
     print_section(out, &irb_documented_sections[0]);
     fputs("Single values beside them:\n\n", out);
     irb_markdown_options(out, irb_render_options, "key");
+    fputs("\nWhat is kept beside the numbers; it is no part of the config's key. `gl_bytes` counts "
+          "the\ntextures that a method makes for it:\n\n",
+          out);
+    irb_markdown_options(out, irb_output_options, "key");
     fputs("\n## `reference`\n\n", out);
     irb_markdown_options(out, irb_reference_options, "key");
     fputs("\n", out);

@@ -35,6 +35,12 @@ static bool set_seed(struct irb_cli *cli, const char *value, struct irb_error *e
     return set_override(cli, cli->seed, err);
 }
 
+static bool set_debug_layers(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value;
+    return set_override(cli, "debug_layers=true", err);
+}
+
 static bool set_only(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     if (cli->only_count == IRB_CLI_MAX_ARGUMENTS)
@@ -181,6 +187,9 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--only", NULL, "TRIAL", "run only this trial (may be repeated)", set_only},
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
     {"--keep", NULL, "WHICH", "images to keep: some (first, middle, worst, last) or all", set_keep},
+    {"--debug-layers", NULL, NULL,
+     "keep the methods' debug layers with the images; short for --set debug_layers=true",
+     set_debug_layers},
     {"--backend", NULL, "NAME", "auto (default), osmesa, egl or null", set_backend},
     {"--shader-dir", NULL, "DIR", "read shaders from here instead of the binary", set_shader_dir},
     {"--module", NULL, "FILE.so", "load a method from a shared object", set_module},

@@ -36,6 +36,14 @@ const struct irb_option irb_render_options[] = {
     IRB_OPTION_END,
 };
 
+const struct irb_option irb_output_options[] = {
+    IRB_OPTION_BOOL(struct irb_output_settings, debug_layers, 0,
+                    "keep what methods show of their insides (cluster maps, shadow maps, ...) with "
+                    "each kept frame that is rendered from now on",
+                    "ours"),
+    IRB_OPTION_END,
+};
+
 /* Keys of the file's top that are no render option. */
 static const char *const top_keys[] = {IRB_CONFIG_TOP_KEYS(IRB_CONFIG_KEY_NAME)};
 enum { TOP_KEYS = sizeof top_keys / sizeof *top_keys };
@@ -62,6 +70,8 @@ static bool set_top(struct irb_config *config, const char *key, const char *text
         return irb_config_set_seeds(config, text, err);
     if (!strcmp(key, "name"))
         return set_name(config, text, err);
+    if (irb_option_find(irb_output_options, key))
+        return irb_option_set(irb_output_options, &config->output, key, text, err);
     return irb_option_set(irb_render_options, &config->render, key, text, err);
 }
 
@@ -83,6 +93,8 @@ static bool check_top(struct irb_yaml *yaml, irb_yaml_node root, struct irb_erro
     for (; count < TOP_KEYS; count++)
         allowed[count] = top_keys[count];
     for (const struct irb_option *o = irb_render_options; o->name && count < MOST; o++)
+        allowed[count++] = o->name;
+    for (const struct irb_option *o = irb_output_options; o->name && count < MOST; o++)
         allowed[count++] = o->name;
     return irb_yaml_check_map(yaml, root, "config", allowed, err);
 }
@@ -257,6 +269,7 @@ bool irb_config_load(struct irb_config *config, const char *path, const char *co
     config->path = irb_strdup(path);
     config->name = irb_config_stem(path);
     irb_options_default(irb_render_options, &config->render);
+    irb_options_default(irb_output_options, &config->output);
     irb_options_default(irb_reference_options, &config->reference);
     bool ok = read_all(config, &yaml, registry, err) && apply_overrides(config, overrides, err) &&
               check_together(config, err);

@@ -27,6 +27,13 @@ struct irb_render_settings {
 };
 extern const struct irb_option irb_render_options[];
 
+/* What is kept of a run beside its numbers. It changes none of them but gl_bytes, where a method
+ * makes textures for it, and is not in the config's key. */
+struct irb_output_settings {
+    bool debug_layers; /* of kept frames, those of methods that have any */
+};
+extern const struct irb_option irb_output_options[];
+
 /* A named box of the image that is scored on its own. */
 struct irb_region {
     char *name;
@@ -82,6 +89,7 @@ struct irb_config {
     char *path; /* where it was read */
     char *name; /* `name:`, else the file's stem */
     struct irb_render_settings render;
+    struct irb_output_settings output;
     struct irb_reference_settings reference;
     int seeds[IRB_MOST_SEEDS]; /* every trial is run with each of them; one by default */
     int seed_count;

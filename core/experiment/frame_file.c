@@ -3,16 +3,24 @@
 #include "core/image/exr.h"
 
 #include <math.h>
+#include <stdio.h>
 
 bool irb_frame_file_save(const char *path, const struct irb_frame_output *output,
-                         struct irb_error *err)
+                         const struct irb_debug_layers *debug, struct irb_error *err)
 {
+    enum { OWN = 2 };
     struct irb_image irradiance = {0}, radiance = {0};
     bool ok = irb_texture_read(output->irradiance, 3, &irradiance, err) &&
               (!output->radiance || irb_texture_read(output->radiance, 3, &radiance, err));
-    struct irb_exr_layer layers[] = {{"irradiance", "RGB", &irradiance},
-                                     {"radiance", "RGB", &radiance}};
-    ok = ok && irb_exr_write(path, layers, output->radiance ? 2 : 1, NULL, 0, IRB_EXR_NONE, err);
+    struct irb_exr_layer layers[OWN + IRB_MAX_DEBUG_LAYERS] = {{"irradiance", "RGB", &irradiance},
+                                                               {"radiance", "RGB", &radiance}};
+    irb_debug_layer_name names[IRB_MAX_DEBUG_LAYERS];
+    struct irb_debug_attributes attributes;
+    int count = output->radiance ? 2 : 1;
+    count += irb_debug_layers_append(debug, layers + count, names);
+    irb_debug_attributes(&attributes, debug);
+    ok = ok &&
+         irb_exr_write(path, layers, count, attributes.list, attributes.count, IRB_EXR_NONE, err);
     irb_image_destroy(&irradiance);
     irb_image_destroy(&radiance);
     return ok;
@@ -26,6 +34,23 @@ bool irb_frame_file_load(const char *path, struct irb_frame_file *file, struct i
     struct irb_error absent;
     irb_exr_read(path, "radiance", "RGB", &file->radiance, &absent);
     return true;
+}
+
+void irb_frame_provenance(struct irb_frame_provenance *out, const char *scene,
+                          const struct irb_trial *trial, int frame,
+                          const struct irb_key *config_key)
+{
+    snprintf(out->seed, sizeof out->seed, "%d", trial->seed);
+    snprintf(out->frame, sizeof out->frame, "%d", frame);
+    const struct irb_exr_attribute list[IRB_FRAME_ATTRIBUTES] = {
+        {"irbench:scene", scene},
+        {"irbench:trial", trial->name},
+        {"irbench:seed", out->seed},
+        {"irbench:frame", out->frame},
+        {"irbench:config_key", config_key->hex},
+    };
+    for (int i = 0; i < IRB_FRAME_ATTRIBUTES; i++)
+        out->list[i] = list[i];
 }
 
 void irb_frame_file_destroy(struct irb_frame_file *file)

@@ -6,6 +6,8 @@
 #ifndef IRB_EXPERIMENT_FRAME_FILE_H
 #define IRB_EXPERIMENT_FRAME_FILE_H
 
+#include "core/config/config.h"
+#include "core/experiment/debug_layers.h"
 #include "core/frame/gbuffer.h"
 #include "methods/method.h"
 
@@ -15,10 +17,21 @@ struct irb_frame_file {
     struct irb_image radiance; /* data NULL when there is none */
 };
 
+/* debug: empty where there are no layers. */
 bool irb_frame_file_save(const char *path, const struct irb_frame_output *output,
-                         struct irb_error *err);
+                         const struct irb_debug_layers *debug, struct irb_error *err);
 bool irb_frame_file_load(const char *path, struct irb_frame_file *file, struct irb_error *err);
 void irb_frame_file_destroy(struct irb_frame_file *file);
+
+/* What images say of where they are from: scene, trial, seed, frame and config. */
+enum { IRB_FRAME_ATTRIBUTES = 5 };
+struct irb_frame_provenance {
+    struct irb_exr_attribute list[IRB_FRAME_ATTRIBUTES]; /* borrows all but these: */
+    char seed[16], frame[16];
+};
+void irb_frame_provenance(struct irb_frame_provenance *out, const char *scene,
+                          const struct irb_trial *trial, int frame,
+                          const struct irb_key *config_key);
 
 /* Single-layer helpers: direct light (RGB). */
 bool irb_direct_file_save(const char *path, const struct irb_texture *radiance,

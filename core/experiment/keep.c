@@ -2,13 +2,13 @@
 #include "core/experiment/keep.h"
 #include "core/base/fs.h"
 #include "core/base/parallel.h"
+#include "core/experiment/frame_file.h"
 #include "core/experiment/paths.h"
 #include "core/score/sheet.h"
 #include "core/image/exr.h"
 #include "core/image/imageio.h"
 #include "core/score/metrics.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -51,9 +51,10 @@ static bool make_maps(struct maps *maps, const struct irb_scored_frame *frame,
 static bool write_exr(const char *path, const struct irb_run *run,
                       const struct irb_scored_trial *trial, const struct irb_scored_frame *frame,
                       const struct irb_target *target, const struct maps *maps,
-                      struct irb_error *err)
+                      const struct irb_debug_layers *debug, struct irb_error *err)
 {
-    const struct irb_exr_layer layers[] = {
+    enum { OWN = 8, MOST = IRB_FRAME_ATTRIBUTES + IRB_MAX_DEBUG_LAYERS + 1 };
+    struct irb_exr_layer layers[OWN + IRB_MAX_DEBUG_LAYERS] = {
         {"", "RGB", &frame->full},
         {"indirect", "RGB", &frame->indirect},
         {"direct", "RGB", &target->direct},
@@ -63,18 +64,17 @@ static bool write_exr(const char *path, const struct irb_run *run,
         {"flip_indirect", "Y", &maps->flip_indirect},
         {"flip_full", "Y", &maps->flip_full},
     };
-    char number[16], seed[16];
-    snprintf(number, sizeof number, "%d", frame->frame);
-    snprintf(seed, sizeof seed, "%d", trial->trial->seed);
-    const struct irb_exr_attribute attributes[] = {
-        {"irbench:scene", trial->scene},
-        {"irbench:trial", trial->trial->name},
-        {"irbench:seed", seed},
-        {"irbench:frame", number},
-        {"irbench:config_key", run->config_key.hex},
-    };
-    return irb_exr_write(path, layers, sizeof layers / sizeof *layers, attributes,
-                         sizeof attributes / sizeof *attributes, IRB_EXR_ZIP, err);
+    irb_debug_layer_name names[IRB_MAX_DEBUG_LAYERS];
+    int count = OWN + irb_debug_layers_append(debug, layers + OWN, names);
+    struct irb_frame_provenance from;
+    struct irb_debug_attributes of_debug;
+    struct irb_exr_attribute attributes[MOST];
+    irb_frame_provenance(&from, trial->scene, trial->trial, frame->frame, &run->config_key);
+    irb_debug_attributes(&of_debug, debug);
+    memcpy(attributes, from.list, sizeof from.list);
+    memcpy(attributes + IRB_FRAME_ATTRIBUTES, of_debug.list, sizeof of_debug.list);
+    return irb_exr_write(path, layers, count, attributes, IRB_FRAME_ATTRIBUTES + of_debug.count,
+                         IRB_EXR_ZIP, err);
 }
 
 static bool write_sheet(const char *path, const struct irb_scored_frame *frame,
@@ -105,6 +105,12 @@ struct keep_frame {
     struct irb_error *errs; /* one a trial */
 };
 
+static struct irb_frame_place place_of(const struct irb_keep *keep, int trial, int frame)
+{
+    return (struct irb_frame_place){keep->run->dir, keep->trials[trial].scene,
+                                    keep->trials[trial].trial->folder, frame};
+}
+
 static bool keep_one(void *user, int index, int thread)
 {
     (void)thread;
@@ -114,34 +120,38 @@ static bool keep_one(void *user, int index, int thread)
     struct irb_error *err = &kept->errs[kept->wanted[index]];
     struct irb_scored_frame frame = {0};
     struct maps maps = {0};
-    const char *dir = keep->run->dir, *folder = trial->trial->folder;
-    char *exr = irb_run_file(dir, trial->scene, folder, "image", kept->frame, "exr");
-    char *png = irb_run_file(dir, trial->scene, folder, "image", kept->frame, "png");
+    struct irb_debug_layers debug = {0};
+    const struct irb_frame_place place = place_of(keep, kept->wanted[index], kept->frame);
+    char *exr = irb_frame_path(&place, "image", "exr"),
+         *png = irb_frame_path(&place, "image", "png");
     bool ok = irb_scored_frame_load(&frame, keep->run, trial, kept->frame, &kept->target, err) &&
+              irb_debug_layers_load(&debug, &place, err) &&
               make_maps(&maps, &frame, &kept->target, keep->constants, err) &&
-              write_exr(exr, keep->run, trial, &frame, &kept->target, &maps, err);
+              write_exr(exr, keep->run, trial, &frame, &kept->target, &maps, &debug, err);
     if (ok && IRB_HAVE_IMAGES)
-        ok = write_sheet(png, &frame, &kept->target, &maps, keep->constants, err);
+        ok = write_sheet(png, &frame, &kept->target, &maps, keep->constants, err) &&
+             irb_debug_layers_show(&debug, &place, keep->constants->exposure, err);
     free(png);
     free(exr);
+    irb_debug_layers_destroy(&debug);
     destroy_maps(&maps);
     irb_scored_frame_destroy(&frame);
     return ok;
 }
 
-static char *frame_path(const struct irb_keep *keep, int trial, int frame)
+static bool is_wanted(const struct irb_keep *keep, int trial, int frame)
 {
-    return irb_run_file(keep->run->dir, keep->sequence->entry->name,
-                        keep->trials[trial].trial->folder, "frame", frame, "exr");
+    int frames = keep->sequence->frame_count;
+    return keep->run->options->keep_all || frame == 0 || frame == frames / 2 ||
+           frame == keep->worst[trial] || frame == frames - 1;
 }
 
 static bool is_kept(const struct irb_keep *keep, int trial, int frame)
 {
-    int frames = keep->sequence->frame_count;
-    if (!keep->run->options->keep_all && frame != 0 && frame != frames / 2 &&
-        frame != keep->worst[trial] && frame != frames - 1)
+    if (!is_wanted(keep, trial, frame))
         return false;
-    char *path = frame_path(keep, trial, frame);
+    const struct irb_frame_place place = place_of(keep, trial, frame);
+    char *path = irb_frame_path(&place, "frame", "exr");
     bool there = irb_fs_exists(path); /* else an earlier run has kept or removed it */
     free(path);
     return there;
@@ -173,7 +183,10 @@ static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted, stru
 static void remove_frame(const struct irb_keep *keep, int frame)
 {
     for (int t = 0; t < keep->trial_count; t++) {
-        char *path = frame_path(keep, t, frame);
+        const struct irb_frame_place place = place_of(keep, t, frame);
+        if (!is_wanted(keep, t, frame))
+            irb_debug_layers_remove_apart(&place);
+        char *path = irb_frame_path(&place, "frame", "exr");
         unlink(path);
         free(path);
     }

@@ -2,7 +2,7 @@
  *
  * Which images of a run stay: first, middle, worst and last frame of every trial (all with
  * --keep all), as a multi-layer EXR with the reference and the error maps, and as a PNG that shows
- * result, reference and error side by side.
+ * result, reference and error side by side. With the frame stay its debug layers, where it has any.
  */
 #ifndef IRB_EXPERIMENT_KEEP_H
 #define IRB_EXPERIMENT_KEEP_H

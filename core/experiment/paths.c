@@ -46,3 +46,8 @@ char *irb_run_file(const char *run, const char *scene, const char *trial, const 
     free(folder);
     return path;
 }
+
+char *irb_frame_path(const struct irb_frame_place *place, const char *stem, const char *extension)
+{
+    return irb_run_file(place->run, place->scene, place->folder, stem, place->frame, extension);
+}

@@ -11,8 +11,11 @@
  *     RUN/SCENE/mask-0000.exr             pixels left out of scores (only where there are any)
  *     RUN/SCENE/TRIAL/frame-0000.exr      what a method returned
  *     RUN/SCENE/TRIAL/image-0000.exr|png  a kept frame: result, reference, maps
+ *     RUN/SCENE/TRIAL/debug-NAME-0000.png a debug layer of a kept frame
+ *     RUN/SCENE/TRIAL/debug-NAME-0000.exr the same where it has not the image's size; else it is
+ * the layer debug.NAME of frame-0000.exr and image-0000.exr
  *
- * With several seeds the last two are in RUN/SCENE/TRIAL/seed-N/.
+ * With several seeds the last four are in RUN/SCENE/TRIAL/seed-N/.
  */
 #ifndef IRB_EXPERIMENT_PATHS_H
 #define IRB_EXPERIMENT_PATHS_H
@@ -30,5 +33,14 @@ char *irb_cache_checkpoint(const char *cache, const struct irb_key *key);
 char *irb_run_file(const char *run, const char *scene, const char *trial, const char *stem,
                    int frame, const char *extension);
 char *irb_run_folder(const char *run, const char *scene, const char *trial);
+
+/* A frame of a trial. Everything is borrowed. */
+struct irb_frame_place {
+    const char *run, *scene;
+    const char *folder; /* of the trial, below the scene's */
+    int frame;
+};
+/* RUN/SCENE/TRIAL/stem-0003.exr */
+char *irb_frame_path(const struct irb_frame_place *place, const char *stem, const char *extension);
 
 #endif

@@ -97,10 +97,17 @@ static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct 
     bool ok = irb_fs_make_dirs(folder, err);
     irb_fs_remove_stale(folder);
     free(folder);
+    int done = 0;
     trial->last_frame = -1;
-    for (int i = 0; i < config->render.frames; i++)
+    for (int i = 0; i < config->render.frames; i++) {
         if (!frame_done(scene, trial, i))
             trial->last_frame = i;
+        else
+            done++;
+    }
+    if (done && config->output.debug_layers)
+        irb_info(run->log, "%s: %d frames are rendered already and get no more debug layers",
+                 trial->trial->folder, done);
     return ok;
 }
 
@@ -198,7 +205,7 @@ static bool render_core(struct scene_run *scene, int frame, struct irb_error *er
     return ok;
 }
 
-static bool render_trial(struct scene_run *scene, struct trial_run *trial, int frame,
+static bool render_trial(struct scene_run *scene, struct trial_run *trial, int frame, bool debug,
                          struct irb_frame_output *output, double ms[IRB_MAX_STAGES],
                          struct irb_error *err)
 {
@@ -214,6 +221,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
         .seed = (uint64_t)trial->trial->seed,
         .params = trial->params,
         .timer = trial->timer,
+        .debug = debug,
     };
     int64_t before = scene->run->gl->bytes;
     *output = (struct irb_frame_output){.lost_energy = NAN};
@@ -224,15 +232,33 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
     return ok || irb_error_prefix(err, "%s: frame %d", trial->trial->folder, frame);
 }
 
+/* Images to files. The debug layers are read back here, after the stages' times. */
+static bool save_output(struct scene_run *scene, struct trial_run *trial, int frame,
+                        const struct irb_frame_output *output, struct irb_error *err)
+{
+    struct irb_run *run = scene->run;
+    const char *name = scene->sequence->entry->name;
+    const struct irb_frame_place place = {run->dir, name, trial->trial->folder, frame};
+    struct irb_debug_layers debug = {0};
+    struct irb_frame_provenance from;
+    irb_frame_provenance(&from, name, trial->trial, frame, &run->config_key);
+    char *path = irb_frame_path(&place, "frame", "exr");
+    /* the frame file last: with it the frame is there */
+    bool ok = (!run->config->output.debug_layers || irb_debug_layers_read(&debug, output, err) ||
+               irb_error_prefix(err, "%s: frame %d", trial->trial->folder, frame)) &&
+              irb_debug_layers_save_apart(&debug, &place, from.list, IRB_FRAME_ATTRIBUTES, err) &&
+              irb_frame_file_save(path, output, &debug, err);
+    free(path);
+    irb_debug_layers_destroy(&debug);
+    return ok;
+}
+
 static bool store_frame(struct scene_run *scene, struct trial_run *trial, int frame,
                         const struct irb_frame_output *output, const double ms[IRB_MAX_STAGES],
                         struct irb_error *err)
 {
     struct irb_run *run = scene->run;
-    char *path = irb_run_file(run->dir, scene->sequence->entry->name, trial->trial->folder, "frame",
-                              frame, "exr");
-    bool ok = irb_frame_file_save(path, output, err);
-    free(path);
+    bool ok = save_output(scene, trial, frame, output, err);
     struct irb_store_value stages[IRB_CORE_STAGE_COUNT + IRB_MAX_STAGES];
     int stage_count = 0;
     for (int i = 0; i < IRB_CORE_STAGE_COUNT; i++)
@@ -320,10 +346,12 @@ static bool trial_frame(struct scene_run *scene, struct trial_run *trial, int fr
     struct irb_frame_output output;
     double ms[IRB_MAX_STAGES];
     irb_run_work(run, IRB_WORK_RENDER);
-    if (!render_trial(scene, trial, frame, &output, ms, err))
+    bool stored = !done && !warm_up;
+    bool debug = stored && run->config->output.debug_layers;
+    if (!render_trial(scene, trial, frame, debug, &output, ms, err))
         return false;
     irb_run_work(run, IRB_WORK_STORE);
-    return done || warm_up || store_frame(scene, trial, frame, &output, ms, err);
+    return !stored || store_frame(scene, trial, frame, &output, ms, err);
 }
 
 /* The first frame (a negative one while settling) that anything has to be rendered for. */

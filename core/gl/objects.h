@@ -39,6 +39,10 @@ void irb_texture_destroy(struct irb_texture *texture);
  * for this, depth formats with 1 channel. */
 bool irb_texture_read(const struct irb_texture *texture, int channels, struct irb_image *image,
                       struct irb_error *err);
+/* Level 0 of a GL_R32UI texture as the floats whose bits its texels are (distances that atomics
+ * compared), laid out as irb_texture_read does. *image is created with 1 channel. */
+bool irb_texture_read_bits(const struct irb_texture *texture, struct irb_image *image,
+                           struct irb_error *err);
 /* Uploads a float image (row 0 = top, laid out as irb_texture_read gives it) into level 0. No
  * conversion to sRGB: values go into GL_SRGB8_ALPHA8 as they are. */
 bool irb_texture_write(struct irb_texture *texture, const struct irb_image *image,

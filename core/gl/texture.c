@@ -146,13 +146,11 @@ static void flip_rows(float *to, const float *from, size_t row, int height)
         memcpy(to + (size_t)(height - 1 - y) * row, from + (size_t)y * row, row * sizeof *to);
 }
 
-bool irb_texture_read(const struct irb_texture *texture, int channels, struct irb_image *image,
-                      struct irb_error *err)
+/* Level 0 in texels of `channels` times 4 bytes, which are copied as they are. */
+static bool read_texels(const struct irb_texture *texture, GLenum client, GLenum type, int channels,
+                        struct irb_image *image, struct irb_error *err)
 {
     struct irb_gl *gl = texture->gl;
-    GLenum client = client_format(texture, channels);
-    if (!client)
-        return fail_exchange(texture, channels, err);
     int layers = texture->layers ? texture->layers : 1;
     size_t row = (size_t)texture->width * (size_t)channels;
     size_t layer = row * (size_t)texture->height;
@@ -168,7 +166,7 @@ bool irb_texture_read(const struct irb_texture *texture, int channels, struct ir
         char name[128] = "";
         /* what shaders stored becomes visible to this read */
         gl->api.MemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        gl->api.GetTextureImage(texture->id, 0, client, GL_FLOAT, (GLsizei)bytes, pixels);
+        gl->api.GetTextureImage(texture->id, 0, client, type, (GLsizei)bytes, pixels);
         read_label(texture, name);
         ok = irb_gl_check(gl, name, err);
         for (int i = 0; ok && i < layers; i++)
@@ -179,6 +177,23 @@ bool irb_texture_read(const struct irb_texture *texture, int channels, struct ir
     }
     free(pixels);
     return ok;
+}
+
+bool irb_texture_read(const struct irb_texture *texture, int channels, struct irb_image *image,
+                      struct irb_error *err)
+{
+    GLenum client = client_format(texture, channels);
+    if (!client)
+        return fail_exchange(texture, channels, err);
+    return read_texels(texture, client, GL_FLOAT, channels, image, err);
+}
+
+bool irb_texture_read_bits(const struct irb_texture *texture, struct irb_image *image,
+                           struct irb_error *err)
+{
+    if (texture->format != GL_R32UI)
+        return fail_exchange(texture, 1, err);
+    return read_texels(texture, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, image, err);
 }
 
 bool irb_texture_write(struct irb_texture *texture, const struct irb_image *image,

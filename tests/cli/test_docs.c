@@ -42,6 +42,7 @@ static void test_options_are_documented(void **state)
 {
     (void)state;
     expect_options("config key", irb_render_options);
+    expect_options("config key", irb_output_options);
     expect_options("config key reference.", irb_reference_options);
     for (const struct irb_documented_section *s = irb_documented_sections; s->title; s++)
         for (const struct irb_documented_key *key = s->keys; key->name; key++) {

@@ -408,6 +408,7 @@ static void test_key(void **state)
     assert_string_equal(key_with(full_text, NULL).hex, key.hex);
     /* not what a name, a comment or the notation says */
     assert_string_equal(key_with(full_text, "name=other").hex, key.hex);
+    assert_string_equal(key_with(full_text, "debug_layers=true").hex, key.hex);
     assert_string_equal(key_with(full_text, "frames=9").hex, key.hex);
     assert_string_equal(
         key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,

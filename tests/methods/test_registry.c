@@ -56,7 +56,7 @@ static void test_good_module(void **state)
 static void test_bad_modules(void **state)
 {
     (void)state;
-    expect_refusal("other_abi", "expected method ABI 1, found 2");
+    expect_refusal("other_abi", "expected method ABI 2, found 3");
     expect_refusal("no_method", "returned no method");
     expect_refusal("bad_name", "found 'Not a name'");
     expect_refusal("missing_function", "must define create, resize");
