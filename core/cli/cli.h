@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/log.h"
 #include "core/gl/context.h"
+#include "core/report/table.h"
 #include "methods/registry.h"
 
 #include <signal.h>
@@ -40,9 +41,10 @@ struct irb_cli {
     int threads;     /* --threads, 0 = all cores */
     unsigned stages; /* --stage, all by default */
     bool keep_all, key;
-    bool per_seed;      /* --per-seed */
-    char *run_dir;      /* owned: where a command has left results, else NULL */
-    char *command_line; /* owned: as it was given, for provenance */
+    bool per_seed;                  /* --per-seed */
+    enum irb_table_subject subject; /* --stages, --statistics, --frames */
+    char *run_dir;                  /* owned: where a command has left results, else NULL */
+    char *command_line;             /* owned: as it was given, for provenance */
     struct irb_log log;
     struct irb_registry registry;
     const volatile sig_atomic_t *stop;

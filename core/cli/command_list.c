@@ -10,13 +10,21 @@ const struct irb_command irb_commands[] = {
      "done again; Ctrl-C keeps everything.\n\n"
      "  irbench run experiments/quick.yaml\n"
      "  irbench run experiments/quick.yaml --set frames=2 --set reference.noise=0.05 --out /tmp/q\n"
-     "  irbench run experiments/quick.yaml --only rsm:samples=100\n",
+     "  irbench run experiments/quick.yaml --only rsm:samples=100\n"
+     "  irbench run experiments/quick.yaml --debug-layers --keep all\n",
      irb_command_run},
     {"table", "RUN", 1, 1, "print the results of a run folder",
-     "\nReads the run's database, also while a run writes it.\n\n"
+     "\nReads the run's database, also while a run writes it. Instead of the scores, --stages "
+     "prints "
+     "the\n"
+     "median time of every stage and --statistics the mean of what methods report of their frames, "
+     "in\n"
+     "a table for each method of a scene; --frames has a row for every frame, for plots.\n\n"
      "  irbench table results/runs/quick-1a2b3c4d\n"
      "  irbench table results/runs/quick-1a2b3c4d --format json\n"
-     "  irbench table results/runs/seeds-1a2b3c4d --format latex --per-seed\n",
+     "  irbench table results/runs/seeds-1a2b3c4d --format latex --per-seed\n"
+     "  irbench table results/runs/quick-1a2b3c4d --stages --format md\n"
+     "  irbench table results/runs/quick-1a2b3c4d --frames > frames.csv\n",
      irb_command_table},
     {"reference", "CONFIG", 1, 1, "trace the references of an experiment into the cache",
      "\nThe cache is $IRBENCH_CACHE, else ~/.cache/irbench. Resumable.\n\n"

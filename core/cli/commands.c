@@ -11,29 +11,28 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool table_format(const struct irb_cli *cli, enum irb_table_format *format,
-                         struct irb_error *err)
+static bool table_options(const struct irb_cli *cli, struct irb_table_options *options,
+                          struct irb_error *err)
 {
-    *format = IRB_TABLE_TEXT;
-    if (!cli->format)
-        return true;
-    return irb_table_format_parse(cli->format, format, err);
+    const char *no_color = getenv("NO_COLOR");
+    *options = (struct irb_table_options){
+        .format = cli->subject == IRB_TABLE_FRAMES ? IRB_TABLE_CSV : IRB_TABLE_TEXT,
+        .subject = cli->subject,
+        .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color),
+        .per_seed = cli->per_seed,
+    };
+    return (!cli->format || irb_table_format_parse(cli->format, &options->format, err)) &&
+           irb_table_check(options, err);
 }
 
 static bool print_table(const struct irb_cli *cli, const char *run_dir, struct irb_error *err)
 {
-    enum irb_table_format format;
-    if (!table_format(cli, &format, err))
+    struct irb_table_options options;
+    if (!table_options(cli, &options, err))
         return false;
     struct irb_store *store = irb_store_open(run_dir, false, err);
     if (!store)
         return false;
-    const char *no_color = getenv("NO_COLOR");
-    struct irb_table_options options = {
-        .format = format,
-        .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color),
-        .per_seed = cli->per_seed,
-    };
     bool ok = irb_table_write(stdout, store, &options, err);
     irb_store_close(store);
     return ok;
@@ -60,8 +59,8 @@ bool irb_command_run(struct irb_cli *cli, struct irb_error *err)
 {
     struct irb_config config = {0};
     struct irb_run_options options = run_options(cli);
-    enum irb_table_format format;
-    if (!table_format(cli, &format, err) ||
+    struct irb_table_options table;
+    if (!table_options(cli, &table, err) || /* before the work, not after it */
         !irb_config_load(&config, cli->arguments[0], cli->overrides, &cli->registry, err))
         return false;
     bool ok = irb_run_experiment(&config, &options, &cli->run_dir, err);

@@ -171,6 +171,34 @@ static bool set_per_seed(struct irb_cli *cli, const char *value, struct irb_erro
     return true;
 }
 
+static bool set_subject(struct irb_cli *cli, enum irb_table_subject subject, struct irb_error *err)
+{
+    if (cli->subject != IRB_TABLE_SCORES && cli->subject != subject)
+        return irb_fail(err, IRB_E_USAGE,
+                        "--stages, --statistics and --frames are three tables; expected one of "
+                        "them");
+    cli->subject = subject;
+    return true;
+}
+
+static bool set_stages(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value;
+    return set_subject(cli, IRB_TABLE_STAGES, err);
+}
+
+static bool set_statistics(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value;
+    return set_subject(cli, IRB_TABLE_STATISTICS, err);
+}
+
+static bool set_frames(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)value;
+    return set_subject(cli, IRB_TABLE_FRAMES, err);
+}
+
 static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)value, (void)err;
@@ -197,6 +225,13 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--format", NULL, "FORMAT", "of tables: text (default), csv, md, json or latex", set_format},
     {"--per-seed", NULL, NULL, "tables: a row for each seed instead of means over the seeds",
      set_per_seed},
+    {"--stages", NULL, NULL, "tables: the median time of every stage instead of the scores",
+     set_stages},
+    {"--statistics", NULL, NULL,
+     "tables: the mean of every statistic that methods report instead of the scores",
+     set_statistics},
+    {"--frames", NULL, NULL,
+     "tables: scores, times and statistics of every frame, as csv (default) or json", set_frames},
     {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},

@@ -90,7 +90,7 @@ static bool check_list(struct sweep *s, const struct irb_option *option, irb_yam
         for (int j = 0; ok && j < i; j++)
             if (!strcmp(before[i], before[j]))
                 ok = irb_yaml_fail(s->yaml, item, err, "%s.%s: %.64s stands here twice",
-                                   s->method->name, option->name, before[i]);
+                                   s->method->name, option->name, irb_str_text(&text));
     }
     for (int i = 0; before && i < count; i++)
         free(before[i]);

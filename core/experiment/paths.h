@@ -12,8 +12,7 @@
  *     RUN/SCENE/TRIAL/frame-0000.exr      what a method returned
  *     RUN/SCENE/TRIAL/image-0000.exr|png  a kept frame: result, reference, maps
  *     RUN/SCENE/TRIAL/debug-NAME-0000.png a debug layer of a kept frame
- *     RUN/SCENE/TRIAL/debug-NAME-0000.exr the same where it has not the image's size; else it is
- * the layer debug.NAME of frame-0000.exr and image-0000.exr
+ *     RUN/SCENE/TRIAL/debug-NAME-0000.exr the same where it has not the image's size
  *
  * With several seeds the last four are in RUN/SCENE/TRIAL/seed-N/.
  */

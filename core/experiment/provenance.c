@@ -3,6 +3,7 @@
 #include "core/base/clock.h"
 #include "core/base/fs.h"
 #include "core/base/parallel.h"
+#include "core/base/str.h"
 #include "core/experiment/version.h"
 #include "core/gl/program.h"
 
@@ -108,6 +109,21 @@ bool irb_provenance_store_gl(struct irb_run *run, struct irb_error *err)
         if (!same_as_before(run, &pairs[i], err))
             return false;
     return store_all(run, pairs, sizeof pairs / sizeof *pairs, err);
+}
+
+bool irb_provenance_store_stages(struct irb_run *run, const struct irb_method *method,
+                                 struct irb_error *err)
+{
+    struct irb_str names = {0};
+    for (int i = 0; irb_core_stages[i]; i++)
+        irb_str_printf(&names, "%s\n", irb_core_stages[i]);
+    for (int i = 0; method->stages[i]; i++)
+        irb_str_printf(&names, "%s\n", method->stages[i]);
+    char *key = irb_asprintf("method/%s/stages", method->name);
+    bool ok = irb_store_set_meta(run->store, key, irb_str_text(&names), err);
+    free(key);
+    irb_str_free(&names);
+    return ok;
 }
 
 bool irb_provenance_store_seconds(struct irb_run *run, struct irb_error *err)

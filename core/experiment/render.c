@@ -91,7 +91,7 @@ static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct 
         irb_store_trial(run->store, scene->sequence->entry->name, trial->trial->method->name,
                         trial->trial->name, json, trial->trial->seed, err);
     free(json);
-    if (!trial->id)
+    if (!trial->id || !irb_provenance_store_stages(run, trial->trial->method, err))
         return false;
     char *folder = irb_run_folder(run->dir, scene->sequence->entry->name, trial->trial->folder);
     bool ok = irb_fs_make_dirs(folder, err);

@@ -12,6 +12,12 @@
  *
  * Errors are those of the sequence; times are over the frames >= 0. A value that is not there is
  * null (json), empty (csv) or "-".
+ *
+ * Stages (in the order in which they run, the core's own first) and statistics have tables of the
+ * same kinds. In text, md and latex there is one for each method of a scene, in csv and json one
+ * with the columns stage_<name>_ms and frame_ms, or statistic_<name>. The table of frames has one
+ * row for each frame of each trial and seed, csv and json alone: scene, method, trial, seed, frame,
+ * then the columns of all the others that any frame has a value for.
  */
 #ifndef IRB_REPORT_TABLE_H
 #define IRB_REPORT_TABLE_H
@@ -29,14 +35,27 @@ enum irb_table_format {
 };
 extern const char *const irb_table_format_names[]; /* "text", "csv", "md", "json", "latex", NULL */
 
+/* What is shown: the sequences' scores; the median time of every stage; the mean of every statistic
+ * that methods report; or scores, times and statistics of every frame. */
+enum irb_table_subject {
+    IRB_TABLE_SCORES,
+    IRB_TABLE_STAGES,
+    IRB_TABLE_STATISTICS,
+    IRB_TABLE_FRAMES
+};
+
 struct irb_table_options {
     enum irb_table_format format;
+    enum irb_table_subject subject;
     bool colour;   /* text: the best values in bold type */
     bool per_seed; /* a row for each seed, no means */
 };
 
 /* IRB_E_USAGE names the formats there are. */
 bool irb_table_format_parse(const char *text, enum irb_table_format *format, struct irb_error *err);
+
+/* Whether there is that table in that format; IRB_E_USAGE. */
+bool irb_table_check(const struct irb_table_options *options, struct irb_error *err);
 
 /* Writes the whole table. IRB_E_IO where `out` does not take it. */
 bool irb_table_write(FILE *out, struct irb_store *store, const struct irb_table_options *options,

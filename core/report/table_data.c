@@ -33,24 +33,12 @@ struct timing {
     int frame;            /* that frames' last sum is for */
 };
 
-static int stage_index(struct irb_table_data *data, const char *name)
-{
-    for (int i = 0; i < data->stage_count; i++)
-        if (!strcmp(data->stages[i], name))
-            return i;
-    data->stages = realloc(data->stages, (size_t)(data->stage_count + 1) * sizeof *data->stages);
-    if (!data->stages)
-        abort();
-    data->stages[data->stage_count] = irb_strdup(name);
-    return data->stage_count++;
-}
-
 static void read_stage(void *user, int frame, const char *name, double ms)
 {
     struct timing *t = user;
     if (frame < 0 || isnan(ms))
         return;
-    int stage = stage_index(t->data, name);
+    int stage = irb_names_index(&t->data->stages, name);
     if (stage >= t->stage_capacity) {
         t->stages = realloc(t->stages, (size_t)(stage + 1) * sizeof *t->stages);
         if (!t->stages)
@@ -65,27 +53,16 @@ static void read_stage(void *user, int frame, const char *name, double ms)
     t->frame = frame;
 }
 
-static int region_metric_index(struct irb_table_data *data, const char *name)
+/* Makes the list `count` long. */
+static void pad(struct irb_values *values, int count)
 {
-    for (int i = 0; i < data->region_metric_count; i++)
-        if (!strcmp(data->region_metrics[i], name))
-            return i;
-    size_t count = (size_t)data->region_metric_count + 1;
-    data->region_metrics = realloc(data->region_metrics, count * sizeof *data->region_metrics);
-    if (!data->region_metrics)
+    if (values->count >= count)
+        return;
+    values->list = realloc(values->list, (size_t)count * sizeof *values->list);
+    if (!values->list)
         abort();
-    data->region_metrics[data->region_metric_count] = irb_strdup(name);
-    return data->region_metric_count++;
-}
-
-/* Makes the row's list of region metrics `count` long. */
-static void pad_regions(struct irb_table_row *row, int count)
-{
-    row->regions = realloc(row->regions, ((size_t)count + 1) * sizeof *row->regions);
-    if (!row->regions)
-        abort();
-    while (row->region_count < count)
-        row->regions[row->region_count++] = NAN;
+    while (values->count < count)
+        values->list[values->count++] = NAN;
 }
 
 /* The row whose scores are read. */
@@ -103,11 +80,41 @@ static void read_score(void *user, int frame, const char *name, double value)
     if (metric >= 0) {
         scored->row->metrics[metric] = value;
     } else if (irb_region_metric_find(name) >= 0) {
-        int index = region_metric_index(scored->data, name);
-        if (index >= scored->row->region_count)
-            pad_regions(scored->row, index + 1);
-        scored->row->regions[index] = value;
+        int index = irb_names_index(&scored->data->region_metrics, name);
+        pad(&scored->row->regions, index + 1);
+        scored->row->regions.list[index] = value;
     }
+}
+
+/* A trial's statistics as they are read: sums so far, in the row, and of how many. */
+struct counted_row {
+    struct irb_table_data *data;
+    struct irb_table_row *row;
+    struct irb_values counts;
+};
+
+static void read_statistic(void *user, int frame, const char *name, double value)
+{
+    struct counted_row *counted = user;
+    if (frame < 0 || isnan(value))
+        return;
+    int index = irb_names_index(&counted->data->statistics, name);
+    pad(&counted->row->statistics, index + 1);
+    pad(&counted->counts, index + 1);
+    double *sum = &counted->row->statistics.list[index], *count = &counted->counts.list[index];
+    *sum = isnan(*count) ? value : *sum + value;
+    *count = isnan(*count) ? 1 : *count + 1;
+}
+
+static bool read_statistics(struct irb_table_data *data, struct irb_table_row *row,
+                            struct irb_store *store, struct irb_error *err)
+{
+    struct counted_row counted = {.data = data, .row = row};
+    bool ok = irb_store_read_statistics(store, row->trial->id, read_statistic, &counted, err);
+    for (int i = 0; i < counted.counts.count; i++)
+        row->statistics.list[i] /= counted.counts.list[i];
+    free(counted.counts.list);
+    return ok;
 }
 
 /* Appends a meta value between two texts, where there is one. */
@@ -173,18 +180,17 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         row->metrics[i] = row->spread[i] = NAN;
     bool ok = irb_store_read_scores(store, row->trial->id, read_score, &scored, err) &&
-              irb_store_read_stages(store, row->trial->id, read_stage, &timing, err);
+              irb_store_read_stages(store, row->trial->id, read_stage, &timing, err) &&
+              read_statistics(data, row, store, err);
     struct irb_summary frames = irb_summarise(timing.frames.values, timing.frames.count);
     row->metrics[IRB_METRIC_frame_ms] = frames.median;
     row->metrics[IRB_METRIC_frame_ms_p95] = frames.p95;
     row->metrics[IRB_METRIC_frame_ms_worst] = frames.worst;
     /* later trials may bring more stages: pad_rows() makes the rows equally long */
-    row->stage_ms = calloc((size_t)timing.stage_capacity + 1, sizeof(double));
-    if (!row->stage_ms)
-        abort();
-    row->stage_count = timing.stage_capacity;
+    pad(&row->stage_ms, timing.stage_capacity);
     for (int i = 0; i < timing.stage_capacity; i++) {
-        row->stage_ms[i] = irb_summarise(timing.stages[i].values, timing.stages[i].count).median;
+        row->stage_ms.list[i] =
+            irb_summarise(timing.stages[i].values, timing.stages[i].count).median;
         free(timing.stages[i].values);
     }
     free(timing.stages);
@@ -193,17 +199,27 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     return ok;
 }
 
-/* Gives every row an entry for every stage and region metric. */
+/* Gives every row an entry for every name. */
 static void pad_rows(struct irb_table_data *data)
 {
     for (int i = 0; i < data->row_count; i++) {
-        struct irb_table_row *row = &data->rows[i];
-        pad_regions(row, data->region_metric_count);
-        row->stage_ms = realloc(row->stage_ms, ((size_t)data->stage_count + 1) * sizeof(double));
-        if (!row->stage_ms)
-            abort();
-        while (row->stage_count < data->stage_count)
-            row->stage_ms[row->stage_count++] = NAN;
+        pad(&data->rows[i].regions, data->region_metrics.count);
+        pad(&data->rows[i].stage_ms, data->stages.count);
+        pad(&data->rows[i].statistics, data->statistics.count);
+    }
+}
+
+void irb_table_order_stages(struct irb_names *stages, struct irb_store *store,
+                            const struct irb_store_trial_list *trials)
+{
+    for (int i = 0; i < trials->count; i++) {
+        char *key = irb_asprintf("method/%s/stages", trials->rows[i].method);
+        char *names = irb_store_get_meta(store, key), *rest = names, *name;
+        while (rest && (name = strsep(&rest, "\n")))
+            if (*name)
+                irb_names_index(stages, name);
+        free(names);
+        free(key);
     }
 }
 
@@ -247,6 +263,7 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, b
     if (!data->rows)
         abort();
     order_rows(data);
+    irb_table_order_stages(&data->stages, store, &data->trials);
     bool ok = true;
     for (int i = 0; i < data->row_count && ok; i++)
         ok = read_row(data, &data->rows[i], store, err);
@@ -266,8 +283,9 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, b
 void irb_table_row_free(struct irb_table_row *row)
 {
     free(row->name);
-    free(row->stage_ms);
-    free(row->regions);
+    free(row->stage_ms.list);
+    free(row->regions.list);
+    free(row->statistics.list);
     free(row->choices);
 }
 
@@ -276,12 +294,9 @@ void irb_table_data_destroy(struct irb_table_data *data)
     for (int i = 0; i < data->row_count; i++)
         irb_table_row_free(&data->rows[i]);
     free(data->provenance);
-    for (int i = 0; i < data->stage_count; i++)
-        free(data->stages[i]);
-    free(data->stages);
-    for (int i = 0; i < data->region_metric_count; i++)
-        free(data->region_metrics[i]);
-    free(data->region_metrics);
+    irb_names_destroy(&data->stages);
+    irb_names_destroy(&data->region_metrics);
+    irb_names_destroy(&data->statistics);
     free(data->rows);
     irb_store_trial_list_destroy(&data->trials);
     *data = (struct irb_table_data){0};

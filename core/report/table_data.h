@@ -6,8 +6,15 @@
 #ifndef IRB_REPORT_TABLE_DATA_H
 #define IRB_REPORT_TABLE_DATA_H
 
+#include "core/report/names.h"
 #include "core/store/store.h"
 #include "core/score/metric_list.h"
+
+/* One for each of the data's names; NaN where there is none. */
+struct irb_values {
+    double *list; /* owned */
+    int count;
+};
 
 struct irb_table_row {
     const struct irb_store_trial_row
@@ -16,10 +23,9 @@ struct irb_table_row {
     int seeds;  /* whose mean the row is */
     double metrics[IRB_METRIC_COUNT]; /* of the sequence; NaN where there is none */
     double spread[IRB_METRIC_COUNT];  /* standard deviation over the seeds; NaN below two of them */
-    double *stage_ms; /* medians, one for each stage of the data, NaN where it has none; owned */
-    int stage_count;
-    double *regions; /* as the data's region metrics; NaN where there is none; owned */
-    int region_count;
+    struct irb_values stage_ms;       /* medians */
+    struct irb_values regions;
+    struct irb_values statistics; /* means */
     char *choices; /* how the scene was scored: eps, exposures; "" where unknown; owned */
 };
 
@@ -27,16 +33,19 @@ struct irb_table_data {
     struct irb_store_trial_list trials;
     struct irb_table_row *rows; /* scenes in order of appearance, their trials together */
     int row_count;
-    bool has_spread; /* some row is of several seeds */
-    char **stages;   /* names of all trials' stages, in order of appearance */
-    int stage_count;
-    char **region_metrics; /* "METRIC@REGION" of all trials, in order of appearance; owned */
-    int region_metric_count;
+    bool has_spread;                 /* some row is of several seeds */
+    struct irb_names stages;         /* of all trials, in the order in which they run */
+    struct irb_names region_metrics; /* "METRIC@REGION" of all trials, in order of appearance */
+    struct irb_names statistics;     /* likewise */
     char *provenance; /* what was measured with what, in one line; "" where unknown; owned */
 };
 
 bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, bool per_seed,
                          struct irb_error *err);
+/* Puts the names of all stages in the order in which a frame runs them, as the render stage has
+ * stored it: the core's own first, then those of each method. */
+void irb_table_order_stages(struct irb_names *stages, struct irb_store *store,
+                            const struct irb_store_trial_list *trials);
 /* For irb_table_data_read(): rows of the same trial become one, the mean of every number (of
  * frame_ms_worst the largest); values that are not there do not count (table_seeds.c). */
 void irb_table_data_merge_seeds(struct irb_table_data *data);

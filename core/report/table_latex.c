@@ -51,8 +51,7 @@ static void latex_unit(struct irb_str *out, const char *unit)
     }
 }
 
-/* "1.20e-05" as 1.20 \times 10^{-5}, for math mode. */
-static void latex_number(struct irb_str *out, const char *number)
+void irb_latex_number(struct irb_str *out, const char *number)
 {
     const char *e = strchr(number, 'e');
     if (!strcmp(number, "inf") || !strcmp(number, "-inf")) {
@@ -83,14 +82,14 @@ static void latex_cell(const struct irb_table_group *group, int r, int c, struct
         return;
     }
     irb_str_printf(out, " & $%s", mark == IRB_MARK_BEST ? "\\mathbf{" : "");
-    latex_number(out, number);
+    irb_latex_number(out, number);
     irb_str_printf(out, "%s",
                    mark == IRB_MARK_BEST          ? "}"
                    : mark == IRB_MARK_BELOW_FLOOR ? "^{\\sim}"
                                                   : "");
     if (*spread) {
         irb_str_printf(out, " \\pm ");
-        latex_number(out, spread);
+        irb_latex_number(out, spread);
     }
     irb_str_printf(out, "$");
 }
@@ -137,8 +136,7 @@ static void latex_group(const struct irb_table_group *group, struct irb_str *out
     irb_str_printf(out, "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n");
 }
 
-/* Each line a comment. */
-static void latex_comment(const char *text, struct irb_str *out)
+void irb_latex_comment(struct irb_str *out, const char *text)
 {
     while (*text) {
         size_t length = strcspn(text, "\n");
@@ -147,12 +145,17 @@ static void latex_comment(const char *text, struct irb_str *out)
     }
 }
 
-void irb_table_latex(const struct irb_table_data *data, struct irb_str *out)
+void irb_latex_begin(struct irb_str *out, const struct irb_table_data *data)
 {
-    struct irb_str foot = {0};
     irb_str_printf(out, "%% needs \\usepackage{booktabs} and \\usepackage[T1]{fontenc}\n");
     if (!data->row_count)
         irb_str_printf(out, "%% no trials yet\n");
+}
+
+void irb_table_latex(const struct irb_table_data *data, struct irb_str *out)
+{
+    struct irb_str foot = {0};
+    irb_latex_begin(out, data);
     for (int first = 0; first < data->row_count;) {
         struct irb_table_group group = irb_table_group_at(data, first);
         latex_group(&group, out);
@@ -160,6 +163,6 @@ void irb_table_latex(const struct irb_table_data *data, struct irb_str *out)
     }
     if (data->row_count)
         irb_table_foot("Bold: ", data, &foot);
-    latex_comment(irb_str_text(&foot), out);
+    irb_latex_comment(out, irb_str_text(&foot));
     irb_str_free(&foot);
 }

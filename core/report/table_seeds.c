@@ -19,12 +19,17 @@ static double *metric_of(struct irb_table_row *row, int index)
 
 static double *stage_of(struct irb_table_row *row, int index)
 {
-    return &row->stage_ms[index];
+    return &row->stage_ms.list[index];
 }
 
 static double *region_of(struct irb_table_row *row, int index)
 {
-    return &row->regions[index];
+    return &row->regions.list[index];
+}
+
+static double *statistic_of(struct irb_table_row *row, int index)
+{
+    return &row->statistics.list[index];
 }
 
 /* Mean and sample standard deviation of what is there, NaN without enough of it. The mean is taken
@@ -70,10 +75,12 @@ static void merge(struct irb_table_row *rows, int count)
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         row->metrics[i] = mean_of(rows, count, metric_of, i, &row->spread[i]);
     row->metrics[IRB_METRIC_frame_ms_worst] = worst;
-    for (int i = 0; i < row->stage_count; i++)
-        row->stage_ms[i] = mean_of(rows, count, stage_of, i, NULL);
-    for (int i = 0; i < row->region_count; i++)
-        row->regions[i] = mean_of(rows, count, region_of, i, NULL);
+    for (int i = 0; i < row->stage_ms.count; i++)
+        row->stage_ms.list[i] = mean_of(rows, count, stage_of, i, NULL);
+    for (int i = 0; i < row->regions.count; i++)
+        row->regions.list[i] = mean_of(rows, count, region_of, i, NULL);
+    for (int i = 0; i < row->statistics.count; i++)
+        row->statistics.list[i] = mean_of(rows, count, statistic_of, i, NULL);
     row->seeds = count;
     for (int i = 1; i < count; i++)
         irb_table_row_free(&rows[i]);

@@ -145,20 +145,25 @@ void irb_table_reference(const struct irb_table_group *group, struct irb_str *ou
                    *choices ? "; " : "", choices);
 }
 
-void irb_table_foot(const char *best, const struct irb_table_data *data, struct irb_str *out)
+void irb_table_foot_seeds(const struct irb_table_data *data, bool spread, struct irb_str *out)
 {
     int most = 1;
     for (int i = 0; i < data->row_count; i++)
         if (data->rows[i].seeds > most)
             most = data->rows[i].seeds;
+    if (most > 1)
+        irb_str_printf(out, "Means over %d seeds%s.\n", most,
+                       spread ? "; +- is the standard deviation from seed to seed" : "");
+    irb_str_printf(out, "%s%s", data->provenance, *data->provenance ? "\n" : "");
+}
+
+void irb_table_foot(const char *best, const struct irb_table_data *data, struct irb_str *out)
+{
     irb_str_printf(
         out,
         "%sbest of its column and scene; ~ not above the reference's own noise, not "
         "ranked.\nErrors are of the indirect image unless said otherwise, against bounce "
         "1 with exact visibility.\n",
         best);
-    if (most > 1)
-        irb_str_printf(
-            out, "Means over %d seeds; +- is the standard deviation from seed to seed.\n", most);
-    irb_str_printf(out, "%s%s", data->provenance, *data->provenance ? "\n" : "");
+    irb_table_foot_seeds(data, data->has_spread, out);
 }

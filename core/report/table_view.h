@@ -52,5 +52,7 @@ void irb_table_reference(const struct irb_table_group *group, struct irb_str *ou
 /* What the marks mean (`best` says how the best value is marked), what is compared with what, over
  * how many seeds, and where the numbers come from. */
 void irb_table_foot(const char *best, const struct irb_table_data *data, struct irb_str *out);
+/* The end of that: over how many seeds, with their spread or without, and where from. */
+void irb_table_foot_seeds(const struct irb_table_data *data, bool spread, struct irb_str *out);
 
 #endif
