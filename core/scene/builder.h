@@ -19,6 +19,10 @@
 /* Bounds that keep every count and byte size well inside 32 bits of index and ordinary memory. */
 enum { IRB_SCENE_MAX_VERTICES = 300000000, IRB_SCENE_MAX_TRIANGLES = 100000000 };
 
+/* Farthest vertex from the origin that a file may have, along an axis, metres: squares of squares
+ * of it still fit a float. */
+#define IRB_SCENE_MAX_COORDINATE 1e9
+
 struct irb_builder {
     struct irb_scene *scene; /* owned until irb_builder_finish */
     uint32_t vertex_capacity, triangle_capacity;

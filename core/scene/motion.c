@@ -88,18 +88,13 @@ static bool invert(const double m[16], double out[16])
 
 /* ---- Keys ---- */
 
-static int width(const struct irb_motion_channel *channel)
-{
-    return channel->path == IRB_MOTION_ROTATION ? 4 : 3;
-}
-
 /* `part` of a CUBIC key: 0 in-tangent, 1 value, 2 out-tangent. */
 static const float *key_values(const struct irb_motion_channel *channel, int key, int part)
 {
     int parts = channel->interpolation == IRB_MOTION_CUBIC ? 3 : 1;
 
     return channel->values +
-           (size_t)width(channel) * ((size_t)key * (size_t)parts + (size_t)(parts == 3 ? part : 0));
+           (size_t)channel->width * ((size_t)key * (size_t)parts + (size_t)(parts == 3 ? part : 0));
 }
 
 /* Spherical linear interpolation the short way round (glTF 2.0, appendix C.4). */
@@ -122,7 +117,7 @@ static void slerp(const float *a, const float *b, double s, double out[4])
 }
 
 /* Between keys k and k + 1 at s in (0,1) (glTF 2.0, appendix C). */
-static void interpolate(const struct irb_motion_channel *channel, int k, double s, double out[4])
+static void interpolate(const struct irb_motion_channel *channel, int k, double s, double *out)
 {
     const float *a = key_values(channel, k, 1), *b = key_values(channel, k + 1, 1);
     double length = (double)channel->times[k + 1] - channel->times[k];
@@ -132,7 +127,7 @@ static void interpolate(const struct irb_motion_channel *channel, int k, double 
         slerp(a, b, s, out);
         return;
     }
-    for (int i = 0; i < width(channel); i++) {
+    for (int i = 0; i < channel->width; i++) {
         if (channel->interpolation == IRB_MOTION_STEP)
             out[i] = a[i];
         else if (channel->interpolation == IRB_MOTION_LINEAR)
@@ -145,8 +140,7 @@ static void interpolate(const struct irb_motion_channel *channel, int k, double 
     }
 }
 
-static void evaluate_channel(const struct irb_motion_channel *channel, double seconds,
-                             double out[4])
+static void evaluate_channel(const struct irb_motion_channel *channel, double seconds, double *out)
 {
     const float *times = channel->times;
     int last = channel->count - 1, k = 0;
@@ -154,7 +148,7 @@ static void evaluate_channel(const struct irb_motion_channel *channel, double se
     while (k < last && times[k + 1] <= seconds)
         k++;
     if (k == last || seconds <= times[k]) {
-        for (int i = 0; i < width(channel); i++)
+        for (int i = 0; i < channel->width; i++)
             out[i] = key_values(channel, k, 1)[i];
         return;
     }
@@ -177,6 +171,26 @@ static void world_matrices(const struct irb_motion *motion, const struct irb_mot
     }
 }
 
+void irb_motion_rest(const struct irb_motion *motion, double (*world)[16])
+{
+    world_matrices(motion, motion->nodes, world);
+}
+
+bool irb_motion_weights(const struct irb_motion *motion, int node, double seconds, double *weights)
+{
+    bool found = false;
+
+    for (int c = 0; c < motion->channel_count; c++) {
+        const struct irb_motion_channel *channel = &motion->channels[c];
+
+        if (channel->path != IRB_MOTION_WEIGHTS || channel->node != node)
+            continue;
+        evaluate_channel(channel, seconds, weights);
+        found = true;
+    }
+    return found;
+}
+
 bool irb_motion_prepare(struct irb_motion *motion, int *node)
 {
     double(*world)[16] = malloc(((size_t)motion->node_count + 1) * sizeof *world);
@@ -186,7 +200,8 @@ bool irb_motion_prepare(struct irb_motion *motion, int *node)
     if (!world)
         return false;
     for (int c = 0; c < motion->channel_count; c++)
-        motion->nodes[motion->channels[c].node].moves = true;
+        if (motion->channels[c].path != IRB_MOTION_WEIGHTS)
+            motion->nodes[motion->channels[c].node].moves = true;
     world_matrices(motion, motion->nodes, world);
     for (int n = 0; n < motion->node_count && ok; n++) {
         struct irb_motion_node *at = &motion->nodes[n];
@@ -213,7 +228,8 @@ void irb_motion_evaluate(const struct irb_motion *motion, double seconds, double
         struct irb_motion_node *node = &posed[channel->node];
         double *slots[] = {node->translation, node->rotation, node->scale};
 
-        evaluate_channel(channel, seconds, slots[channel->path]);
+        if (channel->path != IRB_MOTION_WEIGHTS)
+            evaluate_channel(channel, seconds, slots[channel->path]);
     }
     world_matrices(motion, posed, world);
     free(posed);

@@ -2,6 +2,7 @@
 #include "core/scene/pose.h"
 
 #include "core/base/str.h"
+#include "core/scene/deform.h"
 #include "core/scene/motion.h"
 #include "core/scene/vec.h"
 
@@ -159,8 +160,10 @@ bool irb_poses_apply(const struct irb_poses *poses, struct irb_scene *scene, flo
     frame = fmaxf(frame, 0);
     for (int i = 0; i < scene->object_count; i++)
         set_identity(scene->objects[i].transform);
-    if (poses->plays &&
-        !irb_scene_animate(scene, (double)poses->start + (double)frame / (double)poses->fps, err))
+    if (!poses->plays)
+        irb_deform_reset(scene);
+    else if (!irb_scene_animate(scene, (double)poses->start + (double)frame / (double)poses->fps,
+                                err))
         return false;
     for (int i = 0; i < poses->object_count; i++) {
         double matrix[16];

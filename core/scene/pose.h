@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where a scene's objects are in a frame: the file's own animation, and keyframed transforms on top
- * of it. Frames need not be whole; no wall clock.
+ * Where a scene's objects are in a frame: the scene's own animation, and keyframed transforms on
+ * top of it. Frames need not be whole; no wall clock.
  */
 #ifndef IRB_SCENE_POSE_H
 #define IRB_SCENE_POSE_H
@@ -30,7 +30,7 @@ struct irb_object_script {
 };
 
 struct irb_poses {
-    bool plays;       /* the file's own animation: frame i is shown at start + i/fps */
+    bool plays;       /* the scene's own animation: frame i is shown at start + i/fps */
     float fps, start; /* 1/s, above 0; s */
     char *place;      /* of the above, for messages, or NULL; owned */
     struct irb_object_script *objects; /* owned */
@@ -50,8 +50,9 @@ static inline bool irb_poses_move(const struct irb_poses *poses)
 bool irb_poses_check(const struct irb_poses *poses, const struct irb_scene *scene,
                      struct irb_error *err);
 
-/* Sets every object's transform to that of frame `frame`; frames below 0 are the settle frames and
- * equal frame 0. Poses that passed the check only. IRB_E_MEMORY. */
+/* Sets every object's transform, and the current vertices, to those of frame `frame`; frames below
+ * 0 are the settle frames and equal frame 0. Poses that passed the check only. Errors as of
+ * irb_scene_animate(). */
 bool irb_poses_apply(const struct irb_poses *poses, struct irb_scene *scene, float frame,
                      struct irb_error *err);
 

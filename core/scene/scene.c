@@ -3,6 +3,7 @@
 
 #include "core/base/str.h"
 #include "core/scene/builtin.h"
+#include "core/scene/deform.h"
 #include "core/scene/gltf/load.h"
 #include "core/scene/motion.h"
 #include "core/scene/vec.h"
@@ -27,6 +28,7 @@ void irb_scene_destroy(struct irb_scene *scene)
     free(scene->lights);
     free(scene->cameras);
     irb_motion_destroy(scene->motion);
+    irb_deform_destroy(scene->deform);
     free(scene);
 }
 
@@ -117,6 +119,7 @@ struct irb_key irb_scene_key(const struct irb_scene *scene)
     irb_hash_u64(hash, (uint64_t)scene->object_count);
     for (int i = 0; i < scene->object_count; i++)
         hash_object(hash, &scene->objects[i]);
+    irb_deform_hash(scene, hash);
     return irb_hash_finish(hash);
 }
 
@@ -125,6 +128,7 @@ struct irb_key irb_scene_key(const struct irb_scene *scene)
 bool irb_scene_animate(struct irb_scene *scene, double seconds, struct irb_error *err)
 {
     double(*world)[16];
+    bool ok;
 
     if (!scene->motion)
         return true;
@@ -134,8 +138,9 @@ bool irb_scene_animate(struct irb_scene *scene, double seconds, struct irb_error
     irb_motion_evaluate(scene->motion, seconds, world);
     for (int i = 0; i < scene->object_count; i++)
         irb_motion_transform(scene->motion, world, i, scene->objects[i].transform);
+    ok = irb_deform_animate(scene, world, seconds, err);
     free(world);
-    return true;
+    return ok;
 }
 
 bool irb_scene_duration(const struct irb_scene *scene, double *first, double *last)
@@ -143,6 +148,16 @@ bool irb_scene_duration(const struct irb_scene *scene, double *first, double *la
     *first = scene->motion ? scene->motion->first : 0;
     *last = scene->motion ? scene->motion->last : 0;
     return scene->motion != NULL;
+}
+
+const float *irb_scene_current_positions(const struct irb_scene *scene)
+{
+    return scene->deform ? scene->deform->positions : scene->positions;
+}
+
+const float *irb_scene_current_normals(const struct irb_scene *scene)
+{
+    return scene->deform ? scene->deform->normals : scene->normals;
 }
 
 const struct irb_light *irb_scene_light_find(const struct irb_scene *scene, const char *name)
@@ -174,11 +189,11 @@ static bool is_identity(const float m[16])
 static void extend_by_object(const struct irb_scene *scene, const struct irb_object *object,
                              float min[3], float max[3])
 {
-    const float *m = object->transform;
+    const float *m = object->transform, *positions = irb_scene_current_positions(scene);
     const uint32_t *index = scene->indices + 3 * (size_t)object->first_triangle;
 
     for (size_t i = 0; i < 3 * (size_t)object->triangle_count; i++) {
-        const float *p = scene->positions + 3 * (size_t)index[i];
+        const float *p = positions + 3 * (size_t)index[i];
 
         for (int axis = 0; axis < 3; axis++) {
             float x = m[axis] * p[0] + m[4 + axis] * p[1] + m[8 + axis] * p[2] + m[12 + axis];
@@ -191,7 +206,7 @@ static void extend_by_object(const struct irb_scene *scene, const struct irb_obj
 
 void irb_scene_current_bounds(const struct irb_scene *scene, float min[3], float max[3])
 {
-    bool at_rest = true;
+    bool at_rest = irb_deform_at_rest(scene);
 
     for (int i = 0; i < scene->object_count; i++)
         at_rest = at_rest && is_identity(scene->objects[i].transform);
@@ -208,8 +223,8 @@ void irb_scene_current_bounds(const struct irb_scene *scene, float min[3], float
         extend_by_object(scene, &scene->objects[i], min, max);
 }
 
-void irb_object_rest_bounds(const struct irb_scene *scene, const struct irb_object *object,
-                            float min[3], float max[3])
+static void object_bounds(const struct irb_scene *scene, const struct irb_object *object,
+                          const float *positions, float min[3], float max[3])
 {
     const uint32_t *index = scene->indices + 3 * (size_t)object->first_triangle;
 
@@ -217,12 +232,24 @@ void irb_object_rest_bounds(const struct irb_scene *scene, const struct irb_obje
         min[axis] = INFINITY;
         max[axis] = -INFINITY;
         for (size_t i = 0; i < 3 * (size_t)object->triangle_count; i++) {
-            float x = scene->positions[3 * (size_t)index[i] + (size_t)axis];
+            float x = positions[3 * (size_t)index[i] + (size_t)axis];
 
             min[axis] = x < min[axis] ? x : min[axis];
             max[axis] = x > max[axis] ? x : max[axis];
         }
     }
+}
+
+void irb_object_rest_bounds(const struct irb_scene *scene, const struct irb_object *object,
+                            float min[3], float max[3])
+{
+    object_bounds(scene, object, scene->positions, min, max);
+}
+
+void irb_object_current_bounds(const struct irb_scene *scene, const struct irb_object *object,
+                               float min[3], float max[3])
+{
+    object_bounds(scene, object, irb_scene_current_positions(scene), min, max);
 }
 
 float irb_scene_diagonal(const struct irb_scene *scene)

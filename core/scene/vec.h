@@ -68,4 +68,34 @@ static inline void vec_triangle_cross(const double a[3], const double b[3], cons
     vec_cross(ab, ac, out);
 }
 
+/* Of a column-major 4x4 matrix the 3x3 that normals go by, column-major: the inverse transpose
+ * times the determinant's absolute value. Needs no division, so that flat scalings (determinant 0)
+ * still give normals. Returns whether the matrix mirrors. */
+static inline bool vec_normal_matrix(const double m[16], double out[9])
+{
+    const double *x = m, *y = m + 4, *z = m + 8;
+    bool mirrored;
+
+    vec_cross(y, z, out);
+    vec_cross(z, x, out + 3);
+    vec_cross(x, y, out + 6);
+    mirrored = vec_dot(x, out) < 0;
+    for (int i = 0; i < 9; i++)
+        out[i] = mirrored ? -out[i] : out[i];
+    return mirrored;
+}
+
+/* By a column-major 4x4 matrix, and by a 3x3 one. */
+static inline void vec_transform_point(const double m[16], const double p[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = m[i] * p[0] + m[4 + i] * p[1] + m[8 + i] * p[2] + m[12 + i];
+}
+
+static inline void vec_transform_normal(const double n[9], const double v[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = n[i] * v[0] + n[3 + i] * v[1] + n[6 + i] * v[2];
+}
+
 #endif

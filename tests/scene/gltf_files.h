@@ -19,6 +19,15 @@
 /* A unit right triangle in the plane z = 0. */
 static const float one_triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
+/* An accessor of its own. */
+struct test_array {
+    const void *data;
+    size_t size;
+    int component;    /* 5126, ... */
+    const char *type; /* "VEC3", ... */
+    int count;
+};
+
 /* Zero fields give: one_triangle, no indices, TRIANGLES, one node with the mesh, no material. */
 struct test_gltf {
     const float *positions, *normals, *texcoords; /* 3, 3 and 2 a vertex */
@@ -31,6 +40,10 @@ struct test_gltf {
     const char *primitive;            /* added to the primitive: ",\"material\":0" */
     const char *top;                  /* added at the top level: ",\"materials\":[...]" */
     int claimed_vertices;             /* count written in the accessor, 0: the true one */
+    const char *attributes;           /* added to the attributes: ",\"JOINTS_0\":1" */
+    const char *mesh;                 /* added to the mesh: ",\"weights\":[1]" */
+    const struct test_array *extra;   /* accessors that come after those of the above */
+    int extra_count;
 };
 
 static char *test_folder(void)
@@ -106,7 +119,7 @@ static void add_vertices(const struct test_gltf *gltf, struct test_arrays *array
         irb_str_printf(primitive, ",\"TEXCOORD_0\":%d", arrays->count);
         add_array(arrays, gltf->texcoords, n * 8, 5126, "VEC2", vertices);
     }
-    irb_str_printf(primitive, "}");
+    irb_str_printf(primitive, "%s}", gltf->attributes ? gltf->attributes : "");
 }
 
 static void add_indices(const struct test_gltf *gltf, struct test_arrays *arrays,
@@ -130,15 +143,19 @@ static void make_json(const struct test_gltf *gltf, const char *uri, struct irb_
 
     add_vertices(gltf, &arrays, &primitive);
     add_indices(gltf, &arrays, &primitive);
+    for (int i = 0; i < gltf->extra_count; i++)
+        add_array(&arrays, gltf->extra[i].data, gltf->extra[i].size, gltf->extra[i].component,
+                  gltf->extra[i].type, gltf->extra[i].count);
     irb_str_printf(&primitive, ",\"mode\":%d%s}", gltf->mode ? gltf->mode : 4,
                    gltf->primitive ? gltf->primitive : "");
     irb_str_printf(json,
                    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[%s]}],"
-                   "\"nodes\":[%s],\"meshes\":[{\"name\":\"shape\",\"primitives\":[%s]}],"
+                   "\"nodes\":[%s],\"meshes\":[{\"name\":\"shape\",\"primitives\":[%s]%s}],"
                    "\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu",
                    gltf->roots ? gltf->roots : "0", gltf->nodes ? gltf->nodes : "{\"mesh\":0}",
-                   irb_str_text(&primitive), irb_str_text(&arrays.accessors),
-                   irb_str_text(&arrays.views), arrays.bytes.length);
+                   irb_str_text(&primitive), gltf->mesh ? gltf->mesh : "",
+                   irb_str_text(&arrays.accessors), irb_str_text(&arrays.views),
+                   arrays.bytes.length);
     if (uri)
         irb_str_printf(json, ",\"uri\":\"%s\"", uri);
     irb_str_printf(json, "}]%s}", gltf->top ? gltf->top : "");

@@ -10,6 +10,7 @@ extern "C" {
 
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <string>
 #include <sys/stat.h>
 #include <tiny_gltf.h>
@@ -24,9 +25,11 @@ struct Parsed : irb_gltf {
     std::vector<irb_gltf_buffer> buffer_list;
     std::vector<irb_gltf_view> view_list;
     std::vector<irb_gltf_accessor> accessor_list;
+    std::vector<std::vector<irb_gltf_target>> target_lists;
     std::vector<std::vector<irb_gltf_primitive>> primitive_lists;
     std::vector<irb_gltf_mesh> mesh_list;
     std::vector<irb_gltf_node> node_list;
+    std::vector<irb_gltf_skin> skin_list;
     std::vector<irb_gltf_material> material_list;
     std::vector<irb_gltf_image> image_list;
     std::vector<irb_gltf_light> light_list;
@@ -111,6 +114,7 @@ void copy_buffers(Parsed &parsed)
                          : accessor.type == TINYGLTF_TYPE_VEC2 ? 2
                          : accessor.type == TINYGLTF_TYPE_VEC3 ? 3
                          : accessor.type == TINYGLTF_TYPE_VEC4 ? 4
+                         : accessor.type == TINYGLTF_TYPE_MAT4 ? 16
                                                                : 0;
 
         parsed.accessor_list.push_back({accessor.bufferView, accessor.byteOffset, accessor.count,
@@ -119,11 +123,36 @@ void copy_buffers(Parsed &parsed)
     }
 }
 
-int attribute(const tinygltf::Primitive &primitive, const std::string &name)
+int attribute(const std::map<std::string, int> &attributes, const std::string &name)
 {
-    auto found = primitive.attributes.find(name);
+    auto found = attributes.find(name);
 
-    return found == primitive.attributes.end() ? -1 : found->second;
+    return found == attributes.end() ? -1 : found->second;
+}
+
+irb_gltf_primitive copy_primitive(Parsed &parsed, const tinygltf::Primitive &primitive)
+{
+    std::vector<irb_gltf_target> targets;
+    irb_gltf_primitive copy = {};
+
+    copy.position = attribute(primitive.attributes, "POSITION");
+    copy.normal = attribute(primitive.attributes, "NORMAL");
+    for (int set = 0; set < IRB_GLTF_TEXCOORD_SETS; set++)
+        copy.texcoord[set] = attribute(primitive.attributes, "TEXCOORD_" + std::to_string(set));
+    for (int set = 0; set < IRB_GLTF_JOINT_SETS; set++) {
+        copy.joints[set] = attribute(primitive.attributes, "JOINTS_" + std::to_string(set));
+        copy.shares[set] = attribute(primitive.attributes, "WEIGHTS_" + std::to_string(set));
+    }
+    copy.indices = primitive.indices;
+    copy.material = primitive.material;
+    copy.mode = primitive.mode;
+    copy.compressed = primitive.extensions.count("KHR_draco_mesh_compression") > 0;
+    for (const std::map<std::string, int> &target : primitive.targets)
+        targets.push_back({attribute(target, "POSITION"), attribute(target, "NORMAL")});
+    parsed.target_lists.push_back(std::move(targets));
+    copy.targets = parsed.target_lists.back().data();
+    copy.target_count = int(parsed.target_lists.back().size());
+    return copy;
 }
 
 void copy_meshes(Parsed &parsed)
@@ -131,26 +160,15 @@ void copy_meshes(Parsed &parsed)
     for (const tinygltf::Mesh &mesh : parsed.model.meshes) {
         std::vector<irb_gltf_primitive> list;
 
-        for (const tinygltf::Primitive &primitive : mesh.primitives) {
-            irb_gltf_primitive copy = {};
-
-            copy.position = attribute(primitive, "POSITION");
-            copy.normal = attribute(primitive, "NORMAL");
-            for (int set = 0; set < IRB_GLTF_TEXCOORD_SETS; set++)
-                copy.texcoord[set] = attribute(primitive, "TEXCOORD_" + std::to_string(set));
-            copy.indices = primitive.indices;
-            copy.material = primitive.material;
-            copy.mode = primitive.mode;
-            copy.compressed = primitive.extensions.count("KHR_draco_mesh_compression") > 0;
-            copy.morphs = !primitive.targets.empty();
-            list.push_back(copy);
-        }
+        for (const tinygltf::Primitive &primitive : mesh.primitives)
+            list.push_back(copy_primitive(parsed, primitive));
         parsed.primitive_lists.push_back(std::move(list));
     }
     for (size_t i = 0; i < parsed.model.meshes.size(); i++)
-        parsed.mesh_list.push_back({parsed.model.meshes[i].name.c_str(),
-                                    parsed.primitive_lists[i].data(),
-                                    int(parsed.primitive_lists[i].size())});
+        parsed.mesh_list.push_back(
+            {parsed.model.meshes[i].name.c_str(), parsed.primitive_lists[i].data(),
+             int(parsed.primitive_lists[i].size()), parsed.model.meshes[i].weights.data(),
+             int(parsed.model.meshes[i].weights.size())});
 }
 
 // A vector of another length than glTF's leaves the default and is reported.
@@ -189,6 +207,8 @@ bool copy_nodes(Parsed &parsed, irb_error *err)
         copy.children = node.children.data();
         copy.child_count = int(node.children.size());
         copy.has_matrix = !node.matrix.empty();
+        copy.weights = node.weights.data();
+        copy.weight_count = int(node.weights.size());
         copy.rotation[3] = 1;
         copy.scale[0] = copy.scale[1] = copy.scale[2] = 1;
         if (!copy_numbers(node.matrix, copy.matrix, 16, i, "matrix", err) ||
@@ -199,6 +219,13 @@ bool copy_nodes(Parsed &parsed, irb_error *err)
         parsed.node_list.push_back(copy);
     }
     return true;
+}
+
+void copy_skins(Parsed &parsed)
+{
+    for (const tinygltf::Skin &skin : parsed.model.skins)
+        parsed.skin_list.push_back(
+            {skin.inverseBindMatrices, skin.joints.data(), int(skin.joints.size())});
 }
 
 void copy_materials(Parsed &parsed)
@@ -323,6 +350,7 @@ void publish(Parsed &parsed)
     PUBLISH(views, view_count, view_list);
     PUBLISH(accessors, accessor_count, accessor_list);
     PUBLISH(meshes, mesh_count, mesh_list);
+    PUBLISH(skins, skin_count, skin_list);
     PUBLISH(nodes, node_count, node_list);
     PUBLISH(materials, material_count, material_list);
     PUBLISH(images, image_count, image_list);
@@ -378,6 +406,7 @@ bool load(Parsed &parsed, const void *data, size_t size, bool binary, const std:
     parsed.remark_text = first_line(message);
     copy_buffers(parsed);
     copy_meshes(parsed);
+    copy_skins(parsed);
     copy_materials(parsed);
     copy_roots(parsed);
     publish(parsed);

@@ -16,7 +16,7 @@ extern "C" {
 
 struct irb_error;
 
-enum { IRB_GLTF_TEXCOORD_SETS = 4 };
+enum { IRB_GLTF_TEXCOORD_SETS = 4, IRB_GLTF_JOINT_SETS = 4 };
 
 /* glTF's componentType and mode numbers. */
 enum irb_gltf_component {
@@ -48,8 +48,13 @@ struct irb_gltf_accessor {
     int view;
     size_t offset, count;
     int component;  /* enum irb_gltf_component, or a number that is none */
-    int components; /* 1..4 for SCALAR..VEC4, else 0 */
+    int components; /* 1..4 for SCALAR..VEC4, 16 for MAT4, else 0 */
     bool normalized, sparse;
+};
+
+/* A morph target; accessors. */
+struct irb_gltf_target {
+    int position, normal;
 };
 
 struct irb_gltf_primitive {
@@ -57,13 +62,17 @@ struct irb_gltf_primitive {
     int texcoord[IRB_GLTF_TEXCOORD_SETS];
     int mode;
     bool compressed; /* KHR_draco_mesh_compression */
-    bool morphs;
+    const struct irb_gltf_target *targets;
+    int target_count;
+    int joints[IRB_GLTF_JOINT_SETS], shares[IRB_GLTF_JOINT_SETS]; /* JOINTS_n, WEIGHTS_n */
 };
 
 struct irb_gltf_mesh {
     const char *name;
     const struct irb_gltf_primitive *primitives;
     int primitive_count;
+    const double *weights; /* of the morph targets */
+    int weight_count;      /* 0: the file gives none */
 };
 
 struct irb_gltf_node {
@@ -74,6 +83,14 @@ struct irb_gltf_node {
     bool has_matrix;
     double matrix[16];                            /* column-major, where has_matrix */
     double translation[3], rotation[4], scale[3]; /* else; rotation is a quaternion xyzw */
+    const double *weights;                        /* of the mesh's morph targets */
+    int weight_count;                             /* 0: as the mesh has them */
+};
+
+struct irb_gltf_skin {
+    int inverse_bind; /* accessor */
+    const int *joints;
+    int joint_count;
 };
 
 struct irb_gltf_material {
@@ -125,6 +142,7 @@ struct irb_gltf {
     const struct irb_gltf_accessor *accessors;
     const struct irb_gltf_mesh *meshes;
     const struct irb_gltf_node *nodes;
+    const struct irb_gltf_skin *skins;
     const struct irb_gltf_material *materials;
     const struct irb_gltf_image *images;
     const struct irb_gltf_light *lights;
@@ -136,7 +154,7 @@ struct irb_gltf {
     const char *const *used;                 /* extensionsUsed */
     int buffer_count, view_count, accessor_count, mesh_count, node_count, material_count;
     int image_count, light_count, texture_count, root_count, required_count, used_count;
-    int camera_count, animation_count, channel_count;
+    int camera_count, animation_count, channel_count, skin_count;
 };
 
 /* Parses the contents of a .gltf (binary false) or .glb file. External files are looked for in

@@ -153,11 +153,6 @@ static void warn_about_counts(const struct gltf_loader *loader)
     if (loader->unlit_primitives > 0)
         irb_warn(loader->log, "%s: %ld primitives of points or lines were dropped", path,
                  loader->unlit_primitives);
-    if (loader->morphs > 0)
-        irb_warn(loader->log, "%s: morph targets of %ld primitives are ignored", path,
-                 loader->morphs);
-    if (loader->skins > 0)
-        irb_warn(loader->log, "%s: skins of %ld nodes are ignored", path, loader->skins);
 }
 
 /* ---- Nodes ---- */
@@ -254,10 +249,9 @@ static bool visit_nodes(struct gltf_loader *loader, struct walk *walk, struct ir
         const struct irb_gltf_node *node = &gltf->nodes[index];
 
         walk->order[walk->visited++] = index;
-        loader->skins += node->skin >= 0;
         gltf_light(loader, node, walk->world[index]);
         gltf_camera(loader, node, walk->world[index]);
-        if (node->mesh >= 0 && !gltf_mesh(loader, node->mesh, node->name, walk->world[index], err))
+        if (node->mesh >= 0 && !gltf_mesh(loader, index, walk->world[index], err))
             return false;
         if (!note_objects(loader, index))
             return irb_fail(err, IRB_E_MEMORY, "out of memory");

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * glTF 2.0 to scene. Split over gltf_load.c (file, nodes), gltf_material.c (materials, textures),
- * gltf_mesh.c (primitives) and gltf_array.c (bounds-checked reading of accessors).
+ * glTF 2.0 to scene. Split over load.c (file, nodes), material.c (materials, textures), mesh.c
+ * (primitives), deform.c (morph targets, skins), motion.c (the animation) and array.c
+ * (bounds-checked reading of accessors).
  *
  * What is read: the default scene's nodes with TRS or matrix (baked into the vertices); meshes of
  * triangles, strips and fans with positions, normals and one texture coordinate set; base colour
@@ -17,12 +18,15 @@
  * - rho_s. Files with textures for it stay Lambert, with a warning.
  *
  * Lights (spot and directional of KHR_lights_punctual, W/sr and W/m2 one to one), perspective
- * cameras and the first animation's translations, rotations and scales go into the scene. The alpha
- * mask goes into the material. Emission, point lights, skins, morph targets, further animations,
- * blending and texture transforms are dropped with a warning each. Missing normals become flat
- * normals (glTF 2.0, 3.7.2.1), so that such triangles share no vertices; a normal that is zero or
- * not finite becomes the area-weighted mean of its triangles' (one counted warning); degenerate
- * triangles are dropped (one counted warning). Missing texture coordinates are 0.
+ * cameras and the first animation's translations, rotations, scales and morph weights go into the
+ * scene; so do morph targets (positions and normals) and skins, which pose the vertices at rest
+ * too. A skinned mesh goes where its joints are, not where its node is (glTF 2.0, 3.7.3.3). The
+ * alpha mask goes into the material. Emission, point lights, further animations, blending and
+ * texture transforms are dropped with a warning each. Missing normals become flat normals
+ * (glTF 2.0, 3.7.2.1), so that such triangles share no vertices and stay flat when they deform; a
+ * normal that is zero or not finite becomes the area-weighted mean of its triangles' (one counted
+ * warning); degenerate triangles, by the vertices without morph and skin, are dropped (one counted
+ * warning). Missing texture coordinates are 0.
  */
 #ifndef IRB_SCENE_GLTF_LOAD_H
 #define IRB_SCENE_GLTF_LOAD_H
@@ -44,10 +48,10 @@ struct gltf_loader {
                        glTF's default material */
     int *textures;  /* scene's texture for a glTF image, -1 until it is used */
     long degenerate, bad_normals, unlit_primitives; /* counted for the warnings at the end */
-    long morphs, skins;
-    bool *lights_placed;               /* whether a node holds the light */
-    int *object_nodes;                 /* glTF node of each object */
-    int object_capacity, first_object; /* the next object that has no node yet */
+    size_t deltas;                                  /* numbers of morph targets so far */
+    bool *lights_placed;                            /* whether a node holds the light */
+    int *object_nodes;                              /* glTF node of each object */
+    int object_capacity, first_object;              /* the next object that has no node yet */
 };
 
 /* An accessor whose bytes are known to lie within its buffer. */
@@ -79,12 +83,29 @@ void gltf_camera(struct gltf_loader *loader, const struct irb_gltf_node *node,
 void gltf_warn_about_lights(const struct gltf_loader *loader);
 
 /* The first animation, over the `count` nodes in `order` (parents first); `parents` holds the
- * parent of each glTF node, or -1. Leaves the scene without one where nothing moves. */
+ * parent of each glTF node, or -1. Poses what deforms at rest. Leaves the scene without an
+ * animation where nothing moves. */
 bool gltf_motion(struct gltf_loader *loader, const int *order, int count, const int *parents,
                  struct irb_error *err);
 
-/* Appends the mesh as one object a primitive, transformed by `world` (column-major). */
-bool gltf_mesh(struct gltf_loader *loader, int mesh, const char *node_name, const double world[16],
-               struct irb_error *err);
+/* Appends the mesh of glTF's node as one object a primitive, transformed by `world` (column-major),
+ * or left in its own space where the node has a skin. */
+bool gltf_mesh(struct gltf_loader *loader, int node, const double world[16], struct irb_error *err);
+
+/* A primitive that has become the last object of the scene. */
+struct gltf_surface {
+    const struct irb_gltf_primitive *source;
+    int node;
+    const double *world;
+    const struct gltf_array *position, *normal; /* normal NULL: flat */
+    const uint32_t *sources; /* the file's vertex of each of the object's; NULL: in order */
+    uint32_t first_vertex;   /* the object's are all from here on */
+};
+
+bool gltf_has_skin(const struct irb_gltf *gltf, const struct irb_gltf_primitive *source, int node);
+/* Adds its morph targets and skin to the scene; joints and node are glTF's numbers until
+ * gltf_motion(). */
+bool gltf_deform(struct gltf_loader *loader, const struct gltf_surface *surface,
+                 struct irb_error *err);
 
 #endif

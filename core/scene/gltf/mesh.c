@@ -6,39 +6,27 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Farthest vertex from the origin, metres: squares of squares of it still fit a float. */
-#define MAX_COORDINATE 1e9
-
 /* Height over longest side below which a triangle is a line: half an ulp of a float coordinate. */
 #define DEGENERATE_RATIO 0x1p-24
 
 struct primitive {
     struct gltf_loader *loader;
     const struct irb_gltf_primitive *source;
-    const double *world;
-    double normal_matrix[9]; /* column-major cofactors of `world`, turned outwards */
+    int node; /* glTF's, whose mesh this is a part of */
+    const double *node_world;
+    const double *world;     /* the same, or identity where it has a skin */
+    double normal_matrix[9]; /* of `world` */
     bool mirrored;           /* `world` has a negative determinant */
     struct gltf_array position, normal, texcoord, indices; /* the last three if their count > 0 */
     bool has_normal, has_texcoord, has_indices;
     uint32_t first_vertex, first_triangle;
+    bool deforms;      /* has morph targets or a skin */
+    uint32_t *sources; /* of what deforms and is flat: the file's vertex of each; owned */
 };
 
+static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
 /* ---- Opening ---- */
-
-/* The inverse transpose times the determinant's absolute value: needs no division, so that flat
- * scalings (determinant 0) still give normals. */
-static void set_normal_matrix(struct primitive *primitive)
-{
-    const double *m = primitive->world, *x = m, *y = m + 4, *z = m + 8;
-    double *n = primitive->normal_matrix;
-
-    vec_cross(y, z, n);
-    vec_cross(z, x, n + 3);
-    vec_cross(x, y, n + 6);
-    primitive->mirrored = vec_dot(x, n) < 0;
-    for (int i = 0; i < 9; i++)
-        n[i] = primitive->mirrored ? -n[i] : n[i];
-}
 
 static bool open_optional(const struct primitive *primitive, int accessor, const char *what,
                           int components, struct gltf_array *array, bool *present,
@@ -140,31 +128,27 @@ static bool open_primitive(struct primitive *primitive, struct irb_error *err)
 static bool world_position(const struct primitive *primitive, size_t v, double out[3],
                            struct irb_error *err)
 {
-    const double *m = primitive->world;
     double p[3];
 
     for (int i = 0; i < 3; i++)
         p[i] = gltf_array_get(&primitive->position, v, i);
-    for (int i = 0; i < 3; i++) {
-        out[i] = m[i] * p[0] + m[4 + i] * p[1] + m[8 + i] * p[2] + m[12 + i];
-        if (!(fabs(out[i]) <= MAX_COORDINATE))
+    vec_transform_point(primitive->world, p, out);
+    for (int i = 0; i < 3; i++)
+        if (!(fabs(out[i]) <= IRB_SCENE_MAX_COORDINATE))
             return irb_fail(err, IRB_E_INPUT,
                             "vertex %zu lies at %g m in the world, expected at most %g m", v,
-                            out[i], MAX_COORDINATE);
-    }
+                            out[i], IRB_SCENE_MAX_COORDINATE);
     return true;
 }
 
 /* Zero where the file's normal has no direction. */
 static void world_normal(const struct primitive *primitive, size_t v, double out[3])
 {
-    const double *n = primitive->normal_matrix;
     double local[3];
 
     for (int i = 0; i < 3; i++)
         local[i] = gltf_array_get(&primitive->normal, v, i);
-    for (int i = 0; i < 3; i++)
-        out[i] = n[i] * local[0] + n[3 + i] * local[1] + n[6 + i] * local[2];
+    vec_transform_normal(primitive->normal_matrix, local, out);
     if (vec_normalize(out))
         return;
     primitive->loader->bad_normals++;
@@ -295,51 +279,94 @@ static bool add_flat(struct primitive *primitive, struct irb_error *err)
             continue;
         }
         vec_normalize(normal);
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++) {
             corner[i] = irb_builder_vertex(builder, p[i], normal, texcoord[i]);
+            if (primitive->sources && !builder->failure)
+                primitive->sources[corner[i] - primitive->first_vertex] = (uint32_t)v[i];
+        }
         irb_builder_triangle(builder, corner[0], corner[1], corner[2]);
     }
     return true;
 }
 
-static bool add_primitive(struct gltf_loader *loader, const struct irb_gltf_primitive *source,
-                          const char *name, const double world[16], struct irb_error *err)
+/* Morph targets and skin of the object that its vertices and triangles have become. */
+static bool add_deformation(const struct primitive *primitive, struct irb_error *err)
 {
-    struct primitive primitive = {.loader = loader, .source = source, .world = world};
+    const struct irb_builder *builder = &primitive->loader->builder;
+    const struct gltf_surface surface = {
+        .source = primitive->source,
+        .node = primitive->node,
+        .world = primitive->node_world,
+        .position = &primitive->position,
+        .normal = primitive->has_normal ? &primitive->normal : NULL,
+        .sources = primitive->sources,
+        .first_vertex = primitive->first_vertex,
+    };
+
+    if (builder->failure || builder->scene->triangle_count == primitive->first_triangle)
+        return true;
+    return gltf_deform(primitive->loader, &surface, err);
+}
+
+static bool add_object(struct primitive *primitive, const char *name, int material,
+                       struct irb_error *err)
+{
+    struct gltf_loader *loader = primitive->loader;
+    const bool skinned = gltf_has_skin(loader->gltf, primitive->source, primitive->node);
+    bool ok;
+
+    primitive->world = skinned ? identity : primitive->node_world;
+    primitive->mirrored = vec_normal_matrix(primitive->world, primitive->normal_matrix);
+    primitive->deforms = skinned || primitive->source->target_count > 0;
+    primitive->first_vertex = loader->builder.scene->vertex_count;
+    primitive->first_triangle = loader->builder.scene->triangle_count;
+    if (primitive->deforms && !primitive->has_normal) {
+        primitive->sources = malloc((3 * triangle_count(primitive) + 1) * sizeof(uint32_t));
+        if (!primitive->sources)
+            return irb_fail(err, IRB_E_MEMORY, "out of memory");
+    }
+    irb_builder_object(&loader->builder, name, material);
+    ok = primitive->has_normal ? add_smooth(primitive, err) : add_flat(primitive, err);
+    ok = ok && (!primitive->deforms || add_deformation(primitive, err));
+    free(primitive->sources);
+    return ok;
+}
+
+static bool add_primitive(struct primitive *primitive, const char *name, struct irb_error *err)
+{
+    struct gltf_loader *loader = primitive->loader;
+    const struct irb_gltf_primitive *source = primitive->source;
     int material;
 
     if (source->mode < IRB_GLTF_TRIANGLES || source->mode > IRB_GLTF_TRIANGLE_FAN) {
         loader->unlit_primitives++; /* points and lines have no area */
         return true;
     }
-    loader->morphs += source->morphs;
-    if (!gltf_material(loader, source->material, &material, err) ||
-        !open_primitive(&primitive, err))
+    if (!gltf_material(loader, source->material, &material, err) || !open_primitive(primitive, err))
         return false;
-    if (source->mode == IRB_GLTF_TRIANGLES && corner_count(&primitive) % 3 != 0)
+    if (source->mode == IRB_GLTF_TRIANGLES && corner_count(primitive) % 3 != 0)
         return irb_fail(err, IRB_E_INPUT, "has %zu corners, expected a multiple of 3",
-                        corner_count(&primitive));
-    if (loader->builder.failure)
-        return true; /* reported at the end */
-    set_normal_matrix(&primitive);
-    primitive.first_vertex = loader->builder.scene->vertex_count;
-    primitive.first_triangle = loader->builder.scene->triangle_count;
-    irb_builder_object(&loader->builder, name, material);
-    return primitive.has_normal ? add_smooth(&primitive, err) : add_flat(&primitive, err);
+                        corner_count(primitive));
+    return loader->builder.failure /* reported at the end */ ||
+           add_object(primitive, name, material, err);
 }
 
-bool gltf_mesh(struct gltf_loader *loader, int index, const char *node_name, const double world[16],
-               struct irb_error *err)
+bool gltf_mesh(struct gltf_loader *loader, int node, const double world[16], struct irb_error *err)
 {
+    const char *name = loader->gltf->nodes[node].name;
+    const int index = loader->gltf->nodes[node].mesh;
     const struct irb_gltf_mesh *mesh;
 
     if (index >= loader->gltf->mesh_count)
         return irb_fail(err, IRB_E_INPUT, "mesh %d does not exist (the file has %d)", index,
                         loader->gltf->mesh_count);
     mesh = &loader->gltf->meshes[index];
-    for (int i = 0; i < mesh->primitive_count; i++)
-        if (!add_primitive(loader, &mesh->primitives[i], node_name[0] ? node_name : mesh->name,
-                           world, err))
+    for (int i = 0; i < mesh->primitive_count; i++) {
+        struct primitive primitive = {
+            .loader = loader, .source = &mesh->primitives[i], .node = node, .node_world = world};
+
+        if (!add_primitive(&primitive, name[0] ? name : mesh->name, err))
             return irb_error_prefix(err, "mesh %d '%s' primitive %d", index, mesh->name, i);
+    }
     return true;
 }

@@ -82,7 +82,7 @@ static bool add_attribute(struct writer *writer, const float *values, int compon
     irb_str_printf(&writer->accessors,
                    "%s{\"bufferView\":%d,\"componentType\":5126,\"count\":%u,\"type\":\"VEC%d\"",
                    comma(&writer->accessors), view, count, components);
-    if (values == writer->scene->positions) {
+    if (values == irb_scene_current_positions(writer->scene)) {
         irb_str_printf(&writer->accessors, ",\"min\":");
         numbers(&writer->accessors, low, 3);
         irb_str_printf(&writer->accessors, ",\"max\":");
@@ -144,8 +144,8 @@ static bool add_object(struct writer *writer, int number)
     uint32_t count;
 
     if (!add_indices(writer, object, &count) || /* accessor 4 number, then the attributes */
-        !add_attribute(writer, scene->positions, 3, count) ||
-        !add_attribute(writer, scene->normals, 3, count) ||
+        !add_attribute(writer, irb_scene_current_positions(scene), 3, count) ||
+        !add_attribute(writer, irb_scene_current_normals(scene), 3, count) ||
         !add_attribute(writer, scene->texcoords, 2, count))
         return false;
     irb_str_printf(&writer->meshes, "%s{\"name\":", comma(&writer->meshes));
