@@ -28,7 +28,7 @@
 enum irb_method_needs {
     IRB_NEEDS_NOTHING = 0,
     IRB_NEEDS_HISTORY = 1 << 0,         /* keeps state from frame to frame */
-    IRB_NEEDS_STATIC_GEOMETRY = 1 << 1, /* objects must not move */
+    IRB_NEEDS_STATIC_GEOMETRY = 1 << 1, /* objects must not move or deform */
 };
 
 /* All of one frame's inputs; borrowed, valid during render_frame only. */

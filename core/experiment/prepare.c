@@ -15,12 +15,12 @@
 
 /* Renders and keys the G-buffer of one frame and stores it unless the cache has it. */
 static bool prepare_gbuffer(struct irb_run *run, struct irb_gbuffer *gbuffer,
-                            const struct irb_scene_gl *scene, struct irb_sequence *sequence,
-                            int index, struct irb_error *err)
+                            struct irb_scene_gl *scene, struct irb_sequence *sequence, int index,
+                            struct irb_error *err)
 {
     struct irb_sequence_frame *frame = &sequence->frames[index];
     struct irb_gbuffer_image image = {0};
-    if (!irb_sequence_pose(sequence, index, err) ||
+    if (!irb_sequence_pose(sequence, index, err) || !irb_scene_gl_update(scene, err) ||
         !irb_gbuffer_render(gbuffer, scene, &frame->camera, err) ||
         !irb_gbuffer_read(gbuffer, &image, err))
         return false;

@@ -186,7 +186,8 @@ static bool render_core(struct scene_run *scene, int frame, struct irb_error *er
     const struct irb_sequence_frame *pose = &scene->sequence->frames[frame < 0 ? 0 : frame];
     struct irb_gbuffer *gbuffer = scene->slim_gbuffer ? scene->slim_gbuffer : scene->gbuffer;
     struct irb_rsm *rsm = scene->slim_rsm ? scene->slim_rsm : scene->rsm;
-    bool ok = irb_sequence_pose(scene->sequence, frame, err);
+    bool ok =
+        irb_sequence_pose(scene->sequence, frame, err) && irb_scene_gl_update(scene->scene, err);
     irb_timer_begin(scene->timer, IRB_CORE_GBUFFER);
     ok = ok && irb_gbuffer_render(gbuffer, scene->scene, &pose->camera, err);
     irb_timer_end(scene->timer);

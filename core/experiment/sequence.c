@@ -2,6 +2,7 @@
 #include "core/experiment/sequence.h"
 
 #include "core/base/str.h"
+#include "core/scene/deform.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -75,11 +76,11 @@ static bool at_rest(const struct irb_scene *scene)
         for (int k = 0; k < 16; k++)
             if (scene->objects[i].transform[k] != (k % 5 == 0 ? 1.0f : 0.0f))
                 return false;
-    return true;
+    return irb_deform_at_rest(scene);
 }
 
-/* The scene's key at rest, and the objects' transforms where any has moved: hashing all vertices
- * anew for each frame would be slow. */
+/* The scene's key at rest, the objects' transforms where any has moved, and the vertices of what
+ * deforms: hashing all of them anew for each frame would be slow. */
 static struct irb_key pose_key(const struct irb_scene *scene, const struct irb_key *rest)
 {
     if (at_rest(scene))
@@ -89,6 +90,7 @@ static struct irb_key pose_key(const struct irb_scene *scene, const struct irb_k
     irb_hash_string(hash, rest->hex);
     for (int i = 0; i < scene->object_count; i++)
         irb_hash_floats(hash, scene->objects[i].transform, 16);
+    irb_deform_hash(scene, hash);
     return irb_hash_finish(hash);
 }
 
@@ -157,24 +159,47 @@ bool irb_sequence_same_view(const struct irb_sequence *sequence, int frame)
     return !strcmp(now.hex, before.hex);
 }
 
-static float (*copy_transforms(const struct irb_scene *scene))[16]
+/* Where an object was, and in what shape. */
+struct posed_object {
+    float transform[16];
+    uint64_t version;      /* of its vertices; 0: they never change */
+    float low[3], high[3]; /* of them, where they may change */
+};
+
+static uint64_t vertex_version(const struct irb_scene *scene, int object)
 {
-    float(*copy)[16] = malloc(((size_t)scene->object_count + 1) * sizeof *copy);
-    for (int i = 0; copy && i < scene->object_count; i++)
-        memcpy(copy[i], scene->objects[i].transform, sizeof copy[i]);
+    const struct irb_deform_object *deform = irb_deform_find(scene, object);
+    return deform ? deform->version : 0;
+}
+
+static struct posed_object *copy_poses(const struct irb_scene *scene)
+{
+    struct posed_object *copy = calloc((size_t)scene->object_count + 1, sizeof *copy);
+    for (int i = 0; copy && i < scene->object_count; i++) {
+        const struct irb_object *object = &scene->objects[i];
+        memcpy(copy[i].transform, object->transform, sizeof copy[i].transform);
+        copy[i].version = vertex_version(scene, i);
+        if (copy[i].version)
+            irb_object_current_bounds(scene, object, copy[i].low, copy[i].high);
+    }
     return copy;
 }
 
-static void list_moved(const struct irb_scene *scene, float (*before)[16],
+static void list_moved(const struct irb_scene *scene, const struct posed_object *before,
                        struct irb_moved_object *moved, int *count)
 {
     for (int i = 0; i < scene->object_count; i++) {
         const struct irb_object *object = &scene->objects[i];
         float low[3], high[3];
-        if (!memcmp(before[i], object->transform, sizeof object->transform))
+        if (!memcmp(before[i].transform, object->transform, sizeof object->transform) &&
+            before[i].version == vertex_version(scene, i))
             continue;
-        irb_object_rest_bounds(scene, object, low, high);
-        irb_moved_object_set(&moved[(*count)++], before[i], object->transform, low, high);
+        irb_object_current_bounds(scene, object, low, high);
+        for (int k = 0; k < 3 && before[i].version; k++) {
+            low[k] = before[i].low[k] < low[k] ? before[i].low[k] : low[k];
+            high[k] = before[i].high[k] > high[k] ? before[i].high[k] : high[k];
+        }
+        irb_moved_object_set(&moved[(*count)++], before[i].transform, object->transform, low, high);
     }
 }
 
@@ -188,7 +213,7 @@ bool irb_sequence_moved(struct irb_sequence *sequence, int frame, struct irb_mov
         return true;
     if (!irb_sequence_pose(sequence, frame - 1, err))
         return false;
-    float(*before)[16] = copy_transforms(scene);
+    struct posed_object *before = copy_poses(scene);
     *moved = calloc((size_t)scene->object_count + 1, sizeof **moved);
     bool ok = before && *moved;
     if (!ok)

@@ -1,21 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/frame/scene_gl.h"
 
+#include "core/scene/deform.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 enum { ATTRIBUTES = 3, FLAT_NORMALS_BINDING = 0, DIFFUSE_MAP_UNIT = 0 };
 
-/* Unit normals of the triangles in double precision, rounded once. Zero for degenerate ones, which
- * cover no pixel. */
-static float *make_flat_normals(const struct irb_scene *scene)
+/* Unit normals of `count` triangles in double precision, rounded once. Zero for degenerate ones,
+ * which cover no pixel. */
+static float *make_flat_normals(const struct irb_scene *scene, uint32_t first, uint32_t count)
 {
-    float *out = calloc(scene->triangle_count, 4 * sizeof *out);
-    for (uint32_t t = 0; out && t < scene->triangle_count; t++) {
+    const float *positions = irb_scene_current_positions(scene);
+    float *out = calloc((size_t)count + 1, 4 * sizeof *out);
+    for (uint32_t t = 0; out && t < count; t++) {
+        const uint32_t *index = scene->indices + 3 * ((size_t)first + t);
         const float *corner[3];
         double u[3], v[3], n[3], length;
         for (int i = 0; i < 3; i++)
-            corner[i] = scene->positions + 3 * (size_t)scene->indices[3 * (size_t)t + (size_t)i];
+            corner[i] = positions + 3 * (size_t)index[i];
         for (int i = 0; i < 3; i++) {
             u[i] = (double)corner[1][i] - corner[0][i];
             v[i] = (double)corner[2][i] - corner[0][i];
@@ -34,14 +38,14 @@ static bool create_buffers(struct irb_scene_gl *out, struct irb_error *err)
 {
     const struct irb_scene *scene = out->scene;
     const int64_t vertices = scene->vertex_count, triangles = scene->triangle_count;
-    float *flat = make_flat_normals(scene);
+    float *flat = make_flat_normals(scene, 0, scene->triangle_count);
     if (!flat)
         return irb_fail(err, IRB_E_MEMORY, "scene '%s': out of memory for %u triangle normals",
                         scene->name, scene->triangle_count);
-    out->positions =
-        irb_buffer_create(out->gl, "scene: positions", vertices * 12, scene->positions, err);
+    out->positions = irb_buffer_create(out->gl, "scene: positions", vertices * 12,
+                                       irb_scene_current_positions(scene), err);
     out->normals = out->positions ? irb_buffer_create(out->gl, "scene: normals", vertices * 12,
-                                                      scene->normals, err)
+                                                      irb_scene_current_normals(scene), err)
                                   : NULL;
     out->texcoords = out->normals ? irb_buffer_create(out->gl, "scene: texcoords", vertices * 8,
                                                       scene->texcoords, err)
@@ -121,6 +125,58 @@ static bool create_textures(struct irb_scene_gl *out, struct irb_error *err)
     return true;
 }
 
+/* ---- What deforms ---- */
+
+static bool note_versions(struct irb_scene_gl *out, struct irb_error *err)
+{
+    const struct irb_deform *deform = out->scene->deform;
+    if (!deform)
+        return true;
+    out->versions = calloc((size_t)deform->object_count, sizeof *out->versions);
+    if (!out->versions)
+        return irb_fail(err, IRB_E_MEMORY, "scene '%s': out of memory", out->scene->name);
+    for (int i = 0; i < deform->object_count; i++)
+        out->versions[i] = deform->objects[i].version;
+    return true;
+}
+
+static bool upload_object(struct irb_scene_gl *out, const struct irb_deform_object *changed,
+                          struct irb_error *err)
+{
+    const struct irb_scene *scene = out->scene;
+    const struct irb_object *object = &scene->objects[changed->object];
+    const size_t first = 3 * (size_t)changed->first_vertex;
+    const int64_t offset = (int64_t)changed->first_vertex * 12;
+    const int64_t bytes = (int64_t)changed->vertex_count * 12;
+    float *flat = make_flat_normals(scene, object->first_triangle, object->triangle_count);
+    if (!flat)
+        return irb_fail(err, IRB_E_MEMORY, "scene '%s': out of memory for %u triangle normals",
+                        scene->name, object->triangle_count);
+    bool ok = irb_buffer_write(out->positions, offset, bytes,
+                               irb_scene_current_positions(scene) + first, err) &&
+              irb_buffer_write(out->normals, offset, bytes,
+                               irb_scene_current_normals(scene) + first, err) &&
+              irb_buffer_write(out->flat_normals, (int64_t)object->first_triangle * 16,
+                               (int64_t)object->triangle_count * 16, flat, err);
+    free(flat);
+    return ok;
+}
+
+bool irb_scene_gl_update(struct irb_scene_gl *scene, struct irb_error *err)
+{
+    const struct irb_deform *deform = scene->scene->deform;
+    for (int i = 0; deform && i < deform->object_count; i++) {
+        if (scene->versions[i] == deform->objects[i].version)
+            continue;
+        if (!upload_object(scene, &deform->objects[i], err))
+            return false;
+        scene->versions[i] = deform->objects[i].version;
+    }
+    return true;
+}
+
+/* ---- The whole scene ---- */
+
 struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_scene *scene,
                                          struct irb_error *err)
 {
@@ -133,7 +189,7 @@ struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_sce
     out->gl = gl;
     for (int i = 0; i < scene->material_count; i++)
         out->masked = out->masked || scene->materials[i].alpha_cutoff > 0;
-    if (create_buffers(out, err) && create_textures(out, err)) {
+    if (create_buffers(out, err) && create_textures(out, err) && note_versions(out, err)) {
         create_vertex_array(out);
         if (irb_gl_check(gl, "scene: upload", err))
             return out;
@@ -149,6 +205,7 @@ void irb_scene_gl_destroy(struct irb_scene_gl *scene)
     for (int i = 0; scene->textures && i < scene->scene->texture_count; i++)
         irb_texture_destroy(scene->textures[i]);
     free(scene->textures);
+    free(scene->versions);
     irb_buffer_destroy(scene->positions);
     irb_buffer_destroy(scene->normals);
     irb_buffer_destroy(scene->texcoords);

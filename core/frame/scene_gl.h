@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * A scene's geometry and materials in OpenGL, drawn the same way from the camera and the light.
+ * Vertices are the scene's current ones, before the objects' transforms.
  */
 #ifndef IRB_FRAME_SCENE_GL_H
 #define IRB_FRAME_SCENE_GL_H
@@ -13,15 +14,20 @@ struct irb_scene_gl {
     const struct irb_scene *scene; /* borrowed */
     struct irb_gl *gl;             /* borrowed */
     struct irb_buffer *positions, *normals, *texcoords, *indices;
-    struct irb_buffer *flat_normals; /* one vec4 a triangle: unit normal at rest; 0 */
+    struct irb_buffer *flat_normals; /* one vec4 a triangle: unit normal before the transform; 0 */
     struct irb_texture **textures;   /* one a scene texture, sRGB-decoded, mipmapped */
     unsigned vertex_array;
-    bool masked; /* some material has an alpha mask */
+    bool masked;        /* some material has an alpha mask */
+    uint64_t *versions; /* of what deforms: those that the buffers hold; owned */
 };
 
 struct irb_scene_gl *irb_scene_gl_create(struct irb_gl *gl, const struct irb_scene *scene,
                                          struct irb_error *err);
 void irb_scene_gl_destroy(struct irb_scene_gl *scene);
+
+/* Uploads the vertices that have changed since they were last: to be called between a new pose of
+ * the scene and the first draw of it. IRB_E_MEMORY. */
+bool irb_scene_gl_update(struct irb_scene_gl *scene, struct irb_error *err);
 
 /* A program that draws the scene's surfaces, in two variants: `masked`, which is NULL until a scene
  * needs it, cuts away what alpha masks hide (frame/alpha_mask.glsl). */

@@ -72,8 +72,8 @@ struct irb_reference_image {
 
 void irb_reference_image_destroy(struct irb_reference_image *image);
 
-/* Geometry for Embree, built once a scene (and again when objects move). The scene may be destroyed
- * afterwards. */
+/* Geometry for Embree, built once a scene (and again when objects move or deform). The scene may be
+ * destroyed afterwards. */
 struct irb_tracer;
 struct irb_tracer *irb_tracer_create(const struct irb_scene *scene, struct irb_error *err);
 void irb_tracer_destroy(struct irb_tracer *tracer);

@@ -51,9 +51,11 @@ static void fill_triangle(struct surface_set *set, uint32_t index, const struct 
     const struct irb_material *material = &scene->materials[object->material];
     struct surface_triangle *t = &set->triangles[index];
     struct surface_detail *d = &set->details[*details];
+    const float *positions = irb_scene_current_positions(scene);
+    const float *normals = irb_scene_current_normals(scene);
     for (int i = 0; i < 3; i++) {
-        struct vec3 p = v3_load(scene->positions + 3 * (size_t)corner[i]);
-        struct vec3 n = v3_load(scene->normals + 3 * (size_t)corner[i]);
+        struct vec3 p = v3_load(positions + 3 * (size_t)corner[i]);
+        struct vec3 n = v3_load(normals + 3 * (size_t)corner[i]);
         t->vertex[i] = transform_point(object->transform, p);
         d->normal[i] = transform_normal(object->transform, n);
         memcpy(d->texcoord[i], scene->texcoords + 2 * (size_t)corner[i], sizeof d->texcoord[i]);

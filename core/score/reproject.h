@@ -17,10 +17,11 @@ struct irb_reprojection {
                         outside, or has no geometry; owned */
 };
 
-/* An object whose transform differs between the two frames. */
+/* An object whose transform, or whose vertices, differ between the two frames. */
 struct irb_moved_object {
-    float low[3], high[3]; /* bounds at rest, m */
-    double to_rest[2][16]; /* world -> rest in the previous and the current frame; column-major */
+    float low[3], high[3]; /* bounds of its vertices in both frames before the transforms, m */
+    double to_rest[2][16]; /* world -> before the transform in the previous and the current frame;
+                              column-major */
     bool visible[2];       /* false: flattened there, and the matrix means nothing */
 };
 
@@ -33,8 +34,7 @@ bool irb_reproject(struct irb_reprojection *out, const struct irb_gbuffer_image 
                    const struct irb_camera *previous_camera, const struct irb_moved_object *moved,
                    int moved_count, struct irb_error *err);
 
-/* Sets `out` for a transform (rest -> world) of the previous and the current frame, and bounds at
- * rest. */
+/* Sets `out` for the transform of the previous and of the current frame, and bounds before them. */
 void irb_moved_object_set(struct irb_moved_object *out, const float previous[16],
                           const float current[16], const float low[3], const float high[3]);
 void irb_reprojection_destroy(struct irb_reprojection *reprojection);

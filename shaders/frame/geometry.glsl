@@ -14,8 +14,8 @@ uniform vec4 material_specular; /* k_s; exponent alpha */
 
 #include "frame/alpha_mask.glsl"
 
-/* Unit normals of all triangles at rest, computed once in double precision: exact where screen
- * space derivatives of the position are not, and one load a fragment. */
+/* Unit normals of all triangles before the object's transform, computed in double precision: exact
+ * where screen space derivatives of the position are not, and one load a fragment. */
 layout(std430, binding = 0) readonly buffer FlatNormals { vec4 flat_normals[]; };
 
 struct surface {
@@ -32,8 +32,8 @@ surface fetch_surface(vec3 to_viewer)
 {
     surface s;
     s.position = world_position;
-    vec3 rest = flat_normals[first_triangle + gl_PrimitiveID].xyz;
-    s.geometric = normalize(mat3(normal_matrix) * rest);
+    vec3 flat_normal = flat_normals[first_triangle + gl_PrimitiveID].xyz;
+    s.geometric = normalize(mat3(normal_matrix) * flat_normal);
     if (dot(s.geometric, to_viewer) < 0.0)
         s.geometric = -s.geometric;
     float length_squared = dot(world_normal, world_normal);

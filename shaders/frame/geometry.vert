@@ -6,7 +6,7 @@ layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_texcoord;
 
-uniform mat4 model;         /* rest -> current position */
+uniform mat4 model;         /* the object's transform */
 uniform mat4 normal_matrix; /* cofactors of model's upper 3x3 */
 uniform mat4 view_projection;
 

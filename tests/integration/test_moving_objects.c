@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * Objects that move, and surfaces that are cut away by an alpha mask: where the G-buffer, the RSM
- * and the reference's shadows have them, against closed forms. A square plate hangs level over a
- * floor; the lamp at (0, 3, 0) shines straight down, so that a plate of half size a at height y
- * shades the square of half size 3 a/(3 - y) on the floor.
+ * Objects that move or deform, and surfaces that are cut away by an alpha mask: where the G-buffer,
+ * the RSM and the reference's shadows have them, against closed forms. A square plate hangs level
+ * over a floor; the lamp at (0, 3, 0) shines straight down, so that a plate of half size a at
+ * height y shades the square of half size 3 a/(3 - y) on the floor.
  */
 #include "tests/support/compare.h"
 #include "core/experiment/sequence.h"
@@ -21,40 +21,75 @@ static char *folder;
 
 /* ---- An animated file ---- */
 
+/* What lifts the plate: its node, a morph target, or the joint of a skin. */
+enum lift { BY_NODE, BY_MORPH, BY_SKIN, LIFTS };
+
+/* The plate's node, its mesh's attributes and targets, and the animation's target and values. The
+ * skinned plate's own node is away from where its joint is. */
+static const struct lifted {
+    const char *node, *attributes, *channel;
+} lifted[LIFTS] = {
+    {"\"translation\":[0,1,0],\"scale\":[0.5,0.5,0.5]", "}",
+     "\"samplers\":[{\"input\":1,\"output\":2}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":"
+     "1,"
+     "\"path\":\"translation\"}}]"},
+    {"\"translation\":[0,1,0],\"scale\":[0.5,0.5,0.5]", "},\"targets\":[{\"POSITION\":3}]",
+     "\"samplers\":[{\"input\":1,\"output\":4}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":"
+     "1,"
+     "\"path\":\"weights\"}}]"},
+    {"\"translation\":[3,3,3],\"skin\":0", ",\"JOINTS_0\":5,\"WEIGHTS_0\":6}",
+     "\"samplers\":[{\"input\":1,\"output\":2}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":"
+     "4,"
+     "\"path\":\"translation\"}}]"},
+};
+
 /* Square of half size 1; floor four times as large; the plate rises from y = 1 to 2 in 2 s. */
-static void write_scene(void)
+static void write_scene(enum lift lift)
 {
-    static const float data[] = {-1, 0, -1, -1, 0, 1, 1, 0, 1,        /* positions */
-                                 -1, 0, -1, 1,  0, 1, 1, 0, -1, 0, 2, /* times */
-                                 0,  1, 0,  0,  2, 0};                /* translations */
+    static const struct {
+        float positions[18], times[2], translations[6], displacements[18], weights[2];
+        uint8_t joints[24];
+        float shares[24];
+    } data = {
+        {-1, 0, -1, -1, 0, 1, 1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0, -1},   {0, 2}, {0, 1, 0, 0, 2, 0},
+        {0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2, 0},         {0, 1}, {0},
+        {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}};
     static const char down[] = "\"rotation\":[-0.70710678,0,0,0.70710678]";
     struct irb_error err = {0};
     char *path = irb_asprintf("%s/plate.gltf", folder), *bin = irb_asprintf("%s/a.bin", folder);
     char *json = irb_asprintf(
-        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1,2,3]}],\"nodes\":["
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1,2,3,4]}],\"nodes\":["
         "{\"name\":\"floor\",\"mesh\":0,\"scale\":[4,4,4]},"
-        "{\"name\":\"plate\",\"mesh\":0,\"translation\":[0,1,0],\"scale\":[0.5,0.5,0.5]},"
+        "{\"name\":\"plate\",\"mesh\":1,%s},"
         "{\"translation\":[0,3,0],%s,\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
-        "{\"translation\":[0,5,0],%s,\"camera\":0}],"
+        "{\"translation\":[0,5,0],%s,\"camera\":0},"
+        "{\"name\":\"joint\",\"translation\":[0,1,0],\"scale\":[0.5,0.5,0.5]}],"
         "\"cameras\":[{\"name\":\"Eye\",\"type\":\"perspective\",\"perspective\":"
         "{\"yfov\":1,\"znear\":0.1}}],"
         "\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":{\"KHR_lights_punctual\":"
         "{\"lights\":[{\"name\":\"Lamp\",\"type\":\"spot\",\"intensity\":7,"
         "\"spot\":{\"innerConeAngle\":0.8,\"outerConeAngle\":0.9}}]}},"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
-        "\"buffers\":[{\"uri\":\"a.bin\",\"byteLength\":104}],\"bufferViews\":["
-        "{\"buffer\":0,\"byteOffset\":0,\"byteLength\":72},"
-        "{\"buffer\":0,\"byteOffset\":72,\"byteLength\":8},"
-        "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":24}],\"accessors\":["
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]},"
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0%s}]}],\"skins\":[{\"joints\":[4]}],"
+        "\"buffers\":[{\"uri\":\"a.bin\",\"byteLength\":304}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteOffset\":0,\"byteLength\":304}],\"accessors\":["
         "{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
-        "{\"bufferView\":1,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},"
-        "{\"bufferView\":2,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],"
-        "\"animations\":[{\"channels\":["
-        "{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}}],"
-        "\"samplers\":[{\"input\":1,\"output\":2}]}]}",
-        down, down);
+        "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":2,\"type\":"
+        "\"SCALAR\"},"
+        "{\"bufferView\":0,\"byteOffset\":80,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":104,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"}"
+        ","
+        "{\"bufferView\":0,\"byteOffset\":176,\"componentType\":5126,\"count\":2,\"type\":"
+        "\"SCALAR\"},"
+        "{\"bufferView\":0,\"byteOffset\":184,\"componentType\":5121,\"count\":6,\"type\":\"VEC4\"}"
+        ","
+        "{\"bufferView\":0,\"byteOffset\":208,\"componentType\":5126,\"count\":6,\"type\":\"VEC4\"}"
+        "],"
+        "\"animations\":[{%s}]}",
+        lifted[lift].node, down, down, lifted[lift].attributes, lifted[lift].channel);
+    REQUIRE_CMP(sizeof data, ==, 304);
     REQUIRE_OK(irb_fs_write(path, json, strlen(json), &err));
-    REQUIRE_OK(irb_fs_write(bin, data, sizeof data, &err));
+    REQUIRE_OK(irb_fs_write(bin, &data, sizeof data, &err));
     free(json);
     free(bin);
     free(path);
@@ -156,14 +191,28 @@ static void require_all(struct fixture_frame *f, double x0, double x1, double he
     irb_gbuffer_image_destroy(&gbuffer);
 }
 
-static void the_files_animation_moves_everything(void **state)
+/* The one object that moved, and the box of its vertices: at rest, or where they are the ones that
+ * move, of those of both frames. */
+static void require_moved(struct irb_sequence *sequence, int frame, bool by_node)
 {
-    (void)state;
+    struct irb_error err = {0};
+    struct irb_moved_object *moved;
+    int count;
+    REQUIRE_OK(irb_sequence_moved(sequence, frame, &moved, &count, &err));
+    REQUIRE_CMP(count, ==, 1);
+    REQUIRE_NEAR(moved->low[1], by_node ? 1 : 1.25 + 0.25 * (frame - 1), 1e-6);
+    REQUIRE_NEAR(moved->high[1], by_node ? 1 : 1.25 + 0.25 * frame, 1e-6);
+    REQUIRE_NEAR(moved->high[0], plate_half, 1e-6);
+    free(moved);
+}
+
+static void play(enum lift lift)
+{
     struct irb_error err = {0};
     struct irb_config config;
     struct irb_sequence sequence;
     struct fixture_frame f = {0};
-    write_scene();
+    write_scene(lift);
     load_config(&config, "scene: plate.gltf\nframes: 3\nanimation: {fps: 2, start: 0.5}\n"
                          "light: {name: Lamp}\ntrials: [rsm]\n");
     REQUIRE_OK(irb_sequence_open(&sequence, &config, &config.scenes[0], NULL, &err));
@@ -174,8 +223,11 @@ static void the_files_animation_moves_everything(void **state)
         f.light = sequence.frames[frame].light;
         f.camera = sequence.frames[frame].camera;
         REQUIRE_OK(irb_sequence_pose(&sequence, i, &err));
+        REQUIRE_OK(irb_scene_gl_update(f.scene_gl, &err));
         require_all(&f, -plate_half, plate_half, 1 + 0.5 * (0.5 + frame / 2.0));
         assert_false(irb_sequence_same_view(&sequence, frame));
+        if (frame > 0)
+            require_moved(&sequence, frame, lift == BY_NODE);
     }
     f.scene = NULL; /* the sequence's */
     irb_rsm_destroy(f.rsm);
@@ -183,6 +235,24 @@ static void the_files_animation_moves_everything(void **state)
     irb_scene_gl_destroy(f.scene_gl);
     irb_sequence_close(&sequence);
     irb_config_destroy(&config);
+}
+
+static void the_files_animation_moves_everything(void **state)
+{
+    (void)state;
+    play(BY_NODE);
+}
+
+static void morph_targets_move_everything(void **state)
+{
+    (void)state;
+    play(BY_MORPH);
+}
+
+static void skins_move_everything(void **state)
+{
+    (void)state;
+    play(BY_SKIN);
 }
 
 static void expect_refused(const char *text, const char *expected)
@@ -200,7 +270,7 @@ static void expect_refused(const char *text, const char *expected)
 static void unknown_names_are_refused(void **state)
 {
     (void)state;
-    write_scene();
+    write_scene(BY_NODE);
     expect_refused("scene: plate.gltf\nlight: {name: Moon}\ntrials: [rsm]\n",
                    "c.yaml:2:8: light: the file of scene plate has none called 'Moon'; there are "
                    "'Lamp'");
@@ -410,6 +480,8 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_files_animation_moves_everything, make_folder,
                                         drop_folder),
+        cmocka_unit_test_setup_teardown(morph_targets_move_everything, make_folder, drop_folder),
+        cmocka_unit_test_setup_teardown(skins_move_everything, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(unknown_names_are_refused, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(keys_turn_about_the_centre, make_folder, drop_folder),
         cmocka_unit_test(moved_surfaces_are_left_out),
