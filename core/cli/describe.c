@@ -6,6 +6,7 @@
 #include "core/cli/markdown.h"
 #include "core/config/config.h"
 #include "core/scene/builtin.h"
+#include "core/scene/deform.h"
 #include "core/score/metric_list.h"
 
 #include <math.h>
@@ -201,6 +202,20 @@ static void print_materials(const struct irb_scene *scene)
     }
 }
 
+/* What the scene's own animation does; nothing where it has none. */
+static void print_animation(const struct irb_scene *scene)
+{
+    double first, last;
+    if (irb_scene_duration(scene, &first, &last))
+        printf("animation  %.4g .. %.4g s\n", first, last);
+    for (int i = 0; scene->deform && i < scene->deform->object_count; i++) {
+        const struct irb_deform_object *object = &scene->deform->objects[i];
+        printf("deforms    %s: %u vertices, %d morph targets, %d joints\n",
+               scene->objects[object->object].name, object->vertex_count, object->target_count,
+               object->joint_count);
+    }
+}
+
 bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err)
 {
     struct irb_scene *scene = irb_scene_load(cli->arguments[0], &cli->log, err);
@@ -217,6 +232,7 @@ bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err)
            scene->bounds_min[0], scene->bounds_min[1], scene->bounds_min[2], scene->bounds_max[0],
            scene->bounds_max[1], scene->bounds_max[2], irb_scene_diagonal(scene));
     printf("area       %.6g m2\nkey        %s\n", area, irb_scene_key(scene).hex);
+    print_animation(scene);
     print_materials(scene);
     for (int i = 0; i < scene->texture_count; i++)
         printf("texture    %s %dx%d\n", scene->textures[i].name, scene->textures[i].width,

@@ -158,6 +158,23 @@ static void docs_scenes(FILE *out, const struct irb_cli *cli)
         irb_markdown_row(out, (const char *const[]){name, b->doc, b->source, NULL});
         free(name);
     }
+    fputs(
+        "\n## glTF files\n\n"
+        "A scene may also be a glTF 2.0 file, `.gltf` or `.glb`. Its triangles, base colours with "
+        "their\ntextures and alpha masks, spot and directional lights, perspective cameras and "
+        "first animation are\nread; `irbench inspect FILE` says what there is, and warns about "
+        "what "
+        "is left out. `animation:` in a\nconfig plays the animation, which moves:\n\n"
+        "- nodes, by translation, rotation and scale;\n"
+        "- vertices, by the weights of morph targets (positions and normals). At rest the weights "
+        "are the node's,\n  else the mesh's, else 0;\n"
+        "- vertices of skins, by joints: up to 16 a vertex, whose weights are divided by their "
+        "sum. "
+        "A vertex\n  that no joint holds stays where its node is at rest.\n\n"
+        "Surfaces without normals in the file stay flat when they deform. Sparse accessors and "
+        "compressed\nmeshes are refused. `irbench export-scene` writes a scene at rest: no "
+        "animation, morph targets or skins.\n",
+        out);
 }
 
 static const struct {

@@ -34,7 +34,9 @@
       "default")                                                                                   \
     X("camera", "map", "a built-in scene has its own; so may a glTF file")                         \
     X("light", "map", "a built-in scene has its own; so may a glTF file")                          \
-    X("animation", "map", "plays the glTF file's own animation of its objects")                    \
+    X("animation", "map",                                                                          \
+      "plays the scene's own animation: a glTF file's first one (transforms, morph weights, "      \
+      "joints), or that of a built-in scene that has one")                                         \
     X("objects", "list of maps", "moves objects of the scene")                                     \
     X("regions", "list of maps", "boxes of the image that are scored on their own")
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * `animation:` and `objects:` of a scene: the file's own animation, and keyframed transforms of
+ * `animation:` and `objects:` of a scene: its own animation, and keyframed transforms of
  * objects. Names are checked once the scene is loaded (irb_poses_check); messages then still name
  * the line.
  */
@@ -29,14 +29,14 @@ static bool read_number(struct irb_yaml *yaml, irb_yaml_node map, const char *na
 }
 
 static bool read_animation(struct irb_poses *poses, struct irb_yaml *yaml, irb_yaml_node node,
-                           bool builtin, struct irb_error *err)
+                           bool still, struct irb_error *err)
 {
     static const char *const names[] = {IRB_CONFIG_ANIMATION_KEYS(IRB_CONFIG_KEY_NAME) NULL};
     irb_yaml_node fps = irb_yaml_find(yaml, node, "fps");
-    if (builtin)
+    if (still)
         return irb_yaml_fail(yaml, node, err,
-                             "animation: expected for a glTF file alone; a built-in scene has none "
-                             "(objects: moves its objects)");
+                             "animation: this built-in scene has none of its own (objects: moves "
+                             "its objects)");
     poses->plays = true;
     poses->fps = default_fps;
     poses->place = irb_yaml_place(yaml, node);
@@ -179,12 +179,12 @@ static bool read_object(struct irb_poses *poses, struct irb_yaml *yaml, irb_yaml
 }
 
 bool irb_config_read_poses(struct irb_scene_entry *entry, struct irb_yaml *yaml,
-                           irb_yaml_node scene, bool builtin, struct irb_error *err)
+                           irb_yaml_node scene, bool still, struct irb_error *err)
 {
     irb_yaml_node animation = irb_yaml_find(yaml, scene, "animation");
     irb_yaml_node list = irb_yaml_find(yaml, scene, "objects");
     int count = irb_yaml_count(list);
-    if (animation && !read_animation(&entry->poses, yaml, animation, builtin, err))
+    if (animation && !read_animation(&entry->poses, yaml, animation, still, err))
         return false;
     if (!list)
         return true;

@@ -26,9 +26,10 @@ bool irb_config_read_scenes(struct irb_config *config, struct irb_yaml *yaml,
 bool irb_config_read_script(struct irb_scene_entry *entry, struct irb_yaml *yaml,
                             irb_yaml_node scene, bool builtin, struct irb_error *err);
 
-/* `animation:` and `objects:` of `scene` (config_objects.c). */
+/* `animation:` and `objects:` of `scene` (config_objects.c). `still`: it is a built-in that has no
+ * animation. */
 bool irb_config_read_poses(struct irb_scene_entry *entry, struct irb_yaml *yaml,
-                           irb_yaml_node scene, bool builtin, struct irb_error *err);
+                           irb_yaml_node scene, bool still, struct irb_error *err);
 void irb_config_hash_poses(const struct irb_poses *poses, struct irb_hash *hash);
 
 /* `regions:` of `scene` (config_regions.c). The boxes are checked against the resolution later,

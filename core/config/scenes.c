@@ -184,7 +184,7 @@ static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yam
     if (builtin)
         builtin->view(&entry->animation);
     return irb_config_read_script(entry, yaml, node, builtin != NULL, err) &&
-           irb_config_read_poses(entry, yaml, node, builtin != NULL, err) &&
+           irb_config_read_poses(entry, yaml, node, builtin && !builtin->animated, err) &&
            irb_config_read_regions(entry, yaml, node, err);
 }
 

@@ -178,6 +178,11 @@ const struct irb_builtin irb_builtins[] = {
      "box as cornell; sphere and knot ours, after the scene of the ACRSM thesis (which has a "
      "horse)",
      irb_build_cornell_objects, cornell_view},
+    {"cornell-cloth",
+     "Cornell box with a cloth that waves in the wind; animation 0 to 120 s, 2 s a wave",
+     "box as cornell; cloth ours: height over its plane A t sin(2 pi (a s + b t) - w time), by two "
+     "morph targets",
+     irb_build_cornell_cloth, cornell_view, .animated = true},
     {"sphere", "inside of a unit sphere, albedo 0.5: every bounce is uniform",
      "integrating sphere: E after n bounces = albedo^n P/(4 pi R^2)", irb_build_sphere,
      sphere_view},
@@ -198,7 +203,7 @@ const struct irb_builtin irb_builtins[] = {
      doorway_view},
     {"corridor", "L-shaped corridor, the lamp round the corner", "ours", irb_build_corridor,
      corridor_view},
-    {NULL, NULL, NULL, NULL, NULL},
+    {0},
 };
 
 const struct irb_builtin *irb_builtin_find(const char *name)

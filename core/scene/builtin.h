@@ -17,6 +17,7 @@ struct irb_builtin {
     struct irb_scene *(*build)(struct irb_error *err);
     /* Fills camera and light with the scene's default view (single keys). */
     void (*view)(struct irb_animation *animation);
+    bool animated; /* has an animation of its own, which `animation:` in a config plays */
 };
 
 /* All of them, ended by a NULL name. */

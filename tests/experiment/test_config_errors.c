@@ -333,8 +333,8 @@ static void test_of_file(void **state)
     expect_file_scene("animation: {frames: 3}",
                       "@:2:13: animation: unknown key 'frames'; expected one of: fps, start");
     expect_top("animation: {fps: 24}",
-               "@:2:12: animation: expected for a glTF file alone; a built-in scene has none "
-               "(objects: moves its objects)");
+               "@:2:12: animation: this built-in scene has none of its own (objects: moves its "
+               "objects)");
 }
 
 static void test_objects(void **state)

@@ -14,6 +14,7 @@
 static const float white[3] = {0.725f, 0.71f, 0.68f};
 static const float red[3] = {0.63f, 0.065f, 0.05f};
 static const float green[3] = {0.14f, 0.45f, 0.091f};
+static const float blue[3] = {0.15f, 0.25f, 0.6f}; /* ours */
 
 enum { WHITE, RED, GREEN };
 
@@ -101,5 +102,15 @@ struct irb_scene *irb_build_cornell_objects(struct irb_error *err)
     irb_builder_sphere(&builder, sphere_centre, 0.1, 96, 48, false);
     irb_builder_object(&builder, "knot", WHITE);
     irb_builder_knot(&builder, knot_foot, 0.3, 448, 24);
+    return irb_builder_finish(&builder, err);
+}
+
+/* Instead of the blocks a cloth that leans towards the camera, and waves. */
+struct irb_scene *irb_build_cornell_cloth(struct irb_error *err)
+{
+    struct irb_builder builder;
+
+    begin_box(&builder, "cornell-cloth");
+    irb_builder_cloth(&builder, "cloth", irb_builder_material(&builder, "blue", blue));
     return irb_builder_finish(&builder, err);
 }
