@@ -42,6 +42,13 @@ vec3 gbuffer_fetch_normal(ivec2 pixel)
     return gbuffer_right * n.x + gbuffer_up * n.y + gbuffer_back * n.z;
 }
 
+/* Euclidean distance to the camera, m; 0 without geometry. */
+float gbuffer_fetch_distance(ivec2 pixel)
+{
+    vec4 position = gbuffer_fetch_position(pixel);
+    return position.w * distance(position.xyz, gbuffer_camera);
+}
+
 /* The slim layout has no normals of the triangles: the shading normal stands in. */
 vec3 gbuffer_fetch_geometric(ivec2 pixel)
 {
@@ -78,6 +85,11 @@ vec4 gbuffer_fetch_position(ivec2 pixel)
 vec3 gbuffer_fetch_normal(ivec2 pixel)
 {
     return texelFetch(gbuffer_normal, pixel, 0).xyz;
+}
+
+float gbuffer_fetch_distance(ivec2 pixel)
+{
+    return texelFetch(gbuffer_normal, pixel, 0).w;
 }
 
 vec3 gbuffer_fetch_geometric(ivec2 pixel)
