@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/lights/shade.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Work groups of shaders/lights/shade.glsl and shade_lost.comp, and bindings there. */
+enum { GROUP = 8, ROW_GROUP = 64 };
+enum { LIGHTS_BINDING = 0, TAPS_BINDING = 1, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
+/* Programs: one a visibility, RASTER one a projection of its maps. */
+enum { VISIBILITIES = IRB_SHADE_RASTER + 1, KINDS = VISIBILITIES + 1 };
+
+/* Side of the square of pixels that an invocation shades on software rasterisers: the more, the
+ * less a light's loading costs; PCSS has work enough. */
+static const int software_tile[VISIBILITIES] = {4, 4, 1, 2};
+
+struct irb_shade {
+    struct irb_gl *gl;
+    struct irb_program *programs[KINDS][2][2]; /* kind, clamped, point; when first asked for */
+    struct irb_buffer *taps;                   /* blocker search, filter: vec4 each */
+    int taps_made[2];                          /* how many of each it holds */
+    struct irb_program *sum;
+    struct irb_texture *lost; /* R32F, of the split buffers' size; NULL until a bound is given */
+    bool lost_is_valid;       /* for what was shaded last */
+};
+
+struct irb_shade *irb_shade_create(struct irb_gl *gl, struct irb_error *err)
+{
+    struct irb_shade *shade = calloc(1, sizeof *shade);
+    if (!shade) {
+        irb_fail(err, IRB_E_MEMORY, "out of memory");
+        return NULL;
+    }
+    shade->gl = gl;
+    shade->taps =
+        irb_buffer_create(gl, "shade: taps", (int64_t)2 * IRB_SHADOW_TAPS_MOST * 16, NULL, err);
+    if (shade->taps)
+        return shade;
+    irb_shade_destroy(shade);
+    return NULL;
+}
+
+void irb_shade_destroy(struct irb_shade *shade)
+{
+    if (!shade)
+        return;
+    for (int i = 0; i < KINDS * 4; i++)
+        irb_program_destroy(shade->programs[i / 4][i / 2 % 2][i % 2]);
+    irb_program_destroy(shade->sum);
+    irb_buffer_destroy(shade->taps);
+    irb_texture_destroy(shade->lost);
+    free(shade);
+}
+
+static int tile_of(const struct irb_shade *shade, int visibility)
+{
+    return shade->gl->software ? software_tile[visibility] : 1;
+}
+
+static const struct irb_program *program_of(struct irb_shade *shade,
+                                            const struct irb_shade_settings *s,
+                                            const struct irb_raster_maps *raster,
+                                            struct irb_error *err)
+{
+    const int kind = s->visibility + (raster ? (int)raster->projection : 0);
+    struct irb_program **program = &shade->programs[kind][s->bound > 0][s->point_form_factor];
+    char tile[32], visibility[32], block[32], taps[32];
+    if (*program)
+        return *program;
+    snprintf(tile, sizeof tile, "TILE %d", tile_of(shade, s->visibility));
+    snprintf(visibility, sizeof visibility, "VISIBILITY %d", s->visibility);
+    snprintf(block, sizeof block, "VPL_BLOCK %d", IRB_VPL_BLOCK);
+    snprintf(taps, sizeof taps, "TAPS_MOST %d", IRB_SHADOW_TAPS_MOST);
+    const char *defines[8] = {tile, visibility, block, taps};
+    int count = 4;
+    if (raster)
+        defines[count++] = irb_raster_define(raster->projection);
+    if (s->bound > 0)
+        defines[count++] = "CLAMPED 1";
+    if (s->point_form_factor)
+        defines[count++] = "POINT 1";
+    const struct irb_program_desc desc = {.name = "shade",
+                                          .compute = raster ? "lights/shade_raster.comp"
+                                                            : "lights/shade.comp",
+                                          .defines = defines};
+    *program = irb_program_create(shade->gl, &desc, err);
+    return *program;
+}
+
+/* The kernels, where others are asked for than there are. */
+static bool prepare_taps(struct irb_shade *shade, const struct irb_shade_settings *s,
+                         struct irb_error *err)
+{
+    const int counts[2] = {s->blocker_taps, s->taps};
+    for (int kernel = 0; kernel < 2; kernel++) {
+        float points[IRB_SHADOW_TAPS_MOST][2], padded[IRB_SHADOW_TAPS_MOST][4] = {0};
+        if (counts[kernel] < 1 || counts[kernel] > IRB_SHADOW_TAPS_MOST)
+            return irb_fail(err, IRB_E_INTERNAL, "shade: %d taps, expected 1 to %d", counts[kernel],
+                            IRB_SHADOW_TAPS_MOST);
+        if (counts[kernel] == shade->taps_made[kernel])
+            continue;
+        irb_shadow_kernel(counts[kernel], points);
+        for (int i = 0; i < counts[kernel]; i++) {
+            padded[i][0] = points[i][0];
+            padded[i][1] = points[i][1];
+        }
+        if (!irb_buffer_write(shade->taps, kernel * (int64_t)sizeof padded, sizeof padded, padded,
+                              err))
+            return false;
+        shade->taps_made[kernel] = counts[kernel];
+    }
+    return true;
+}
+
+/* An image for what the bound takes, of the split buffers' size. */
+static bool prepare_lost(struct irb_shade *shade, const struct irb_interleave *il,
+                         const struct irb_shade_settings *s, bool accumulate, struct irb_error *err)
+{
+    const struct irb_texture *old = shade->lost;
+    const struct irb_texture_desc desc = {.name = "shade: lost",
+                                          .format = GL_R32F,
+                                          .width = il->split->width,
+                                          .height = il->split->height};
+    shade->lost_is_valid = s->bound > 0;
+    if (!(s->bound > 0) || (old && old->width == desc.width && old->height == desc.height))
+        return true;
+    if (accumulate)
+        return irb_fail(err, IRB_E_INTERNAL, "shade: a bound only since the second batch");
+    irb_texture_destroy(shade->lost);
+    shade->lost = irb_texture_create(shade->gl, &desc, err);
+    return shade->lost != NULL;
+}
+
+static bool check(const struct irb_virtual_lights *lights, const struct irb_ism *ism,
+                  const struct irb_shade_settings *s, const struct irb_shade_batch *batch,
+                  struct irb_error *err)
+{
+    if (s->visibility < 0 || s->visibility >= VISIBILITIES)
+        return irb_fail(err, IRB_E_INTERNAL, "shade: no visibility %d", s->visibility);
+    if (batch->first < 0 || batch->count < 0 || batch->first + batch->count > lights->count)
+        return irb_fail(err, IRB_E_INTERNAL, "shade: lights %d to %d of %d", batch->first,
+                        batch->first + batch->count - 1, lights->count);
+    const bool raster = s->visibility == IRB_SHADE_RASTER;
+    const int maps = raster ? (batch->raster ? batch->raster->count : 0) : ism ? ism->capacity : 0;
+    const int asked = raster ? batch->count : batch->first + batch->count;
+    if (s->visibility != IRB_SHADE_NONE && (asked > maps || (raster && !batch->raster)))
+        return irb_fail(err, IRB_E_INTERNAL, "shade: %d shadow maps for %d lights", maps, asked);
+    return true;
+}
+
+/* Texture units from 3; the side of a texel is in [-1,1]^2. */
+static void bind_maps(const struct irb_program *program, const struct irb_ism *ism,
+                      const struct irb_raster_maps *raster, int first)
+{
+    const int size = raster ? raster->size : ism ? ism->map_size : 1;
+
+    if (raster)
+        irb_raster_maps_bind(raster, program, 3);
+    else if (ism)
+        irb_ism_bind(ism, program, 3);
+    irb_program_float(program, "map_texel", 2.0f / (float)size);
+    irb_program_int(program, "map_base", raster ? first : 0);
+}
+
+static void bind(const struct irb_shade *shade, const struct irb_program *program,
+                 const struct irb_interleave *il, bool bounded)
+{
+    const struct irb_gl_api *api = &shade->gl->api;
+
+    api->BindTextureUnit(0, il->position->id);
+    irb_program_int(program, "split_position", 0);
+    api->BindTextureUnit(1, il->normal->id);
+    irb_program_int(program, "split_normal", 1);
+    api->BindTextureUnit(2, il->geometric->id);
+    irb_program_int(program, "split_geometric", 2);
+    api->BindImageTexture(SPLIT_IMAGE, il->split->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    if (bounded)
+        api->BindImageTexture(LOST_IMAGE, shade->lost->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+    api->BindBufferBase(GL_UNIFORM_BUFFER, TAPS_BINDING, shade->taps->id);
+    irb_program_ivec2(program, "tile_size", (const int[]){il->tile_width, il->tile_height});
+    irb_program_int(program, "tiles_across", il->n);
+    irb_program_int(program, "tile_count", il->n * il->m);
+}
+
+static void set_settings(const struct irb_program *program, const struct irb_shade_settings *s)
+{
+    irb_program_int(program, "search_taps", s->blocker_taps);
+    irb_program_int(program, "filter_taps", s->taps);
+    irb_program_float(program, "search_scale", s->search_scale);
+    irb_program_float(program, "penumbra_scale", s->penumbra_scale);
+    irb_program_float(program, "bound", s->bound);
+    irb_program_float(program, "bias", s->bias);
+    irb_program_float(program, "slope", s->slope);
+    irb_program_float(program, "offset", s->offset);
+}
+
+/* The lights of one uniform block that lie in the batch. */
+static void dispatch(const struct irb_shade *shade, const struct irb_program *program,
+                     const struct irb_interleave *il, const struct irb_virtual_lights *lights,
+                     int block, const struct irb_shade_batch *batch, int side)
+{
+    const struct irb_gl_api *api = &shade->gl->api;
+    const int64_t bytes = (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES;
+    const int base = block * IRB_VPL_BLOCK;
+    const int begin = batch->first > base ? batch->first - base : 0;
+    const int end = batch->first + batch->count - base;
+
+    irb_program_int(program, "light_base", base);
+    irb_program_int(program, "light_begin", begin);
+    irb_program_int(program, "light_end", end < IRB_VPL_BLOCK ? end : IRB_VPL_BLOCK);
+    irb_program_int(program, "accumulate", batch->accumulate || begin + base > batch->first);
+    api->BindBufferRange(GL_UNIFORM_BUFFER, LIGHTS_BINDING, lights->buffer->id, block * bytes,
+                         bytes);
+    api->DispatchCompute((unsigned)((il->tile_width + side - 1) / side),
+                         (unsigned)((il->tile_height + side - 1) / side),
+                         (unsigned)(il->n * il->m));
+    api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *il,
+                         const struct irb_virtual_lights *lights, const struct irb_ism *ism,
+                         const struct irb_shade_settings *settings,
+                         const struct irb_shade_batch *batch, struct irb_error *err)
+{
+    if (!check(lights, ism, settings, batch, err) || !prepare_taps(shade, settings, err) ||
+        !prepare_lost(shade, il, settings, batch->accumulate, err))
+        return false;
+    const struct irb_raster_maps *raster =
+        settings->visibility == IRB_SHADE_RASTER ? batch->raster : NULL;
+    const struct irb_program *program = program_of(shade, settings, raster, err);
+    if (!program)
+        return false;
+    irb_program_use(program);
+    bind(shade, program, il, settings->bound > 0);
+    bind_maps(program, ism, raster, batch->first);
+    set_settings(program, settings);
+    const int side = GROUP * tile_of(shade, settings->visibility);
+    const int first = batch->count > 0 ? batch->first / IRB_VPL_BLOCK : 0;
+    const int last = (batch->first + batch->count - 1) / IRB_VPL_BLOCK;
+    /* no lights at all still take one dispatch, which writes zeros */
+    for (int block = first; block == first || block <= last; block++)
+        dispatch(shade, program, il, lights, block, batch, side);
+    shade->gl->api.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                                 GL_FRAMEBUFFER_BARRIER_BIT);
+    return irb_gl_check(shade->gl, "shade", err);
+}
+
+bool irb_shade_run(struct irb_shade *shade, struct irb_interleave *interleave,
+                   const struct irb_virtual_lights *lights, const struct irb_ism *ism,
+                   const struct irb_shade_settings *settings, struct irb_error *err)
+{
+    const struct irb_shade_batch all = {.count = lights->count};
+    return irb_shade_run_batch(shade, interleave, lights, ism, settings, &all, err);
+}
+
+static bool read_rows(struct irb_shade *shade, const struct irb_interleave *il, float *rows,
+                      int64_t bytes, struct irb_error *err)
+{
+    const struct irb_gl_api *api = &shade->gl->api;
+    const struct irb_program_desc desc = {.name = "shade: lost",
+                                          .compute = "lights/shade_lost.comp"};
+    if (!shade->sum && !(shade->sum = irb_program_create(shade->gl, &desc, err)))
+        return false;
+    struct irb_buffer *sums = irb_buffer_create(shade->gl, "shade: row sums", bytes, NULL, err);
+    if (!sums)
+        return false;
+    irb_program_use(shade->sum);
+    api->BindTextureUnit(0, il->split->id);
+    irb_program_int(shade->sum, "split_image", 0);
+    api->BindTextureUnit(1, shade->lost->id);
+    irb_program_int(shade->sum, "lost", 1);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sums->id);
+    api->DispatchCompute((unsigned)(il->split->height + ROW_GROUP - 1) / ROW_GROUP, 1, 1);
+    bool ok = irb_buffer_read(sums, 0, bytes, rows, err);
+    irb_buffer_destroy(sums);
+    return ok && irb_gl_check(shade->gl, "shade: lost", err);
+}
+
+bool irb_shade_lost(struct irb_shade *shade, const struct irb_interleave *il, double *share,
+                    struct irb_error *err)
+{
+    const int height = il->split->height;
+    const size_t bytes = (size_t)height * 2 * sizeof(float);
+
+    *share = 0;
+    if (!shade->lost_is_valid)
+        return true;
+    float *rows = malloc(bytes);
+    if (!rows)
+        return irb_fail(err, IRB_E_MEMORY, "out of memory for %d row sums", height);
+    bool ok = read_rows(shade, il, rows, (int64_t)bytes, err);
+    double kept = 0, lost = 0;
+    for (int y = 0; ok && y < height; y++) {
+        kept += rows[2 * y];
+        lost += rows[2 * y + 1];
+    }
+    free(rows);
+    *share = kept + lost > 0 ? lost / (kept + lost) : 0;
+    return ok;
+}
