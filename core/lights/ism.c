@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 const char *const irb_ism_splatter_names[] = {"atomic", "raster", "tessellation", NULL};
+const char *const irb_ism_size_names[] = {"even", "surface", NULL};
 const char *const irb_ism_pull_names[] = {"median", "mean", NULL};
 
 enum { LEAST_MAP = 8, MOST_MAP = 1024 };

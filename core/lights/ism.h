@@ -7,10 +7,10 @@
  *
  * A texel holds the Euclidean distance from the light to the nearest splat over it. Splats are
  * squares of whole texels, as large as the surface that a point stands for looks from the light
- * (shaders/lights/ism_splat.glsl has the formula), cut at the map's border. Points below the
- * light's plane, within 0.06 degrees of it, or nearer than `near` are left out. A light without
- * flux keeps an empty map. Objects' transforms and the scene's vertex buffer are read anew at every
- * splat.
+ * (enum irb_ism_size; shaders/lights/ism_splat.glsl has the formula), cut at the map's border.
+ * Points below the light's plane, within 0.06 degrees of it, or nearer than `near` are left out. A
+ * light without flux keeps an empty map. Objects' transforms and the scene's vertex buffer are read
+ * anew at every splat.
  *
  * Same input, same bits; ATOMIC and RASTER give the same atlas.
  */
@@ -39,12 +39,24 @@ enum irb_ism_pull {
 };
 extern const char *const irb_ism_pull_names[]; /* "median", "mean", NULL */
 
+/* What a splat's size goes by, besides the distance. */
+enum irb_ism_size {
+    IRB_ISM_SIZE_EVEN,    /* nothing (thesis 5.3.2): every point stands for the same part of the
+                             scene's surface and faces the light. Where points are sparse, as
+                             algorithm 5.2 leaves them on large triangles, holes stay */
+    IRB_ISM_SIZE_SURFACE, /* the part of its own triangle that the point stands for, as it looks
+                             from the light: no holes but by chance, and large splats on large
+                             triangles, whose one distance is far off at their rims */
+};
+extern const char *const irb_ism_size_names[]; /* "even", "surface", NULL */
+
 struct irb_ism_settings {
     int splatter;       /* enum irb_ism_splatter */
     float splat_factor; /* s_f in (0, 64]; of a fraction, that share of the points (chosen by a hash
                            of their number) goes into one map more */
     float splat_scale;  /* > 0; 1: a splat is as large as the share of the surface that one splat of
                            a map stands for */
+    int splat_size;     /* enum irb_ism_size */
     int splat_most;     /* texels, >= 1: largest side of a splat */
     float near;         /* share of the scene's diagonal at rest, >= 0 */
     int pull_push;      /* levels j, 0 = off: holes up to about 2^j texels wide are filled */

@@ -25,6 +25,9 @@ struct irb_ism_passes {
     /* TESSELLATION */
     const struct irb_scene *measured; /* scene that `range` is of */
     struct irb_tessellation_range range;
+    double measured_points; /* that the tessellator makes with these factors: */
+    float measured_f[2];
+    int measured_order;
     /* pull-push */
     struct irb_program *pull[IRB_ISM_PULLS], *push[IRB_ISM_PULLS];
     struct irb_texture *pyramid; /* level k has half the atlas's size k + 1 times */

@@ -33,6 +33,8 @@ static bool check_numbers(const struct irb_ism_settings *s, struct irb_error *er
                         "ism: expected a splat scale above 0 and splats of at least 1 texel, found "
                         "%g and %d",
                         (double)s->splat_scale, s->splat_most);
+    if (s->splat_size < IRB_ISM_SIZE_EVEN || s->splat_size > IRB_ISM_SIZE_SURFACE)
+        return irb_fail(err, IRB_E_INTERNAL, "ism: splat size %d", s->splat_size);
     if (!(s->near >= 0) || !isfinite(s->near))
         return irb_fail(err, IRB_E_INPUT, "ism: expected a near cut of at least 0, found %g",
                         (double)s->near);
@@ -110,15 +112,48 @@ get_program(struct irb_ism *ism, const struct irb_ism_settings *settings, struct
     return *program;
 }
 
-static void set_uniforms(const struct irb_ism *ism, const struct irb_program *program,
-                         const struct irb_scene *scene, const struct irb_ism_settings *s)
+/* What the tessellator goes by; `measured_points` is looked up by factors that may have keys. */
+static void measure(struct irb_ism_passes *passes, const struct irb_scene *scene,
+                    const struct irb_ism_settings *s)
 {
+    const bool known = passes->measured == scene;
+    if (known && passes->measured_f[0] == s->f_min && passes->measured_f[1] == s->f_max &&
+        passes->measured_order == s->smoothstep)
+        return;
+    if (!known)
+        irb_tessellation_measure(scene, &passes->range);
+    passes->measured = scene;
+    passes->measured_f[0] = s->f_min;
+    passes->measured_f[1] = s->f_max;
+    passes->measured_order = s->smoothstep;
+    passes->measured_points = irb_tessellation_points(scene, &passes->range, s->smoothstep,
+                                                      (double)s->f_min, (double)s->f_max);
+}
+
+/* Area of the scene at rest that a point stands for, m2; 0 without points. */
+static double even_area(const struct irb_ism *ism, const struct irb_scene *scene,
+                        const struct irb_points *points)
+{
+    if (points)
+        return points->count ? points->area / (double)points->count : 0;
+    double area = 0, edges[3];
+    for (uint32_t t = 0; t < scene->triangle_count; t++)
+        area += irb_triangle_size(scene, t, edges);
+    return ism->passes->measured_points > 0 ? area / ism->passes->measured_points : 0;
+}
+
+static void set_uniforms(const struct irb_ism *ism, const struct irb_program *program,
+                         const struct irb_scene *scene, const struct irb_points *points,
+                         const struct irb_ism_settings *s)
+{
+    const bool even = s->splat_size == IRB_ISM_SIZE_EVEN;
     const double half = 0.5 * ism->map_size * (double)s->splat_scale;
     const double area = half * half * ism->count / (double)s->splat_factor;
     irb_program_use(program);
     irb_program_int(program, "light_count", ism->count);
     irb_program_float(program, "splat_factor", s->splat_factor);
     irb_program_float(program, "splat_area", (float)area);
+    irb_program_float(program, "even_area", even ? (float)even_area(ism, scene, points) : 0.0f);
     irb_program_int(program, "splat_most", s->splat_most);
     irb_program_int(program, "map_size", ism->map_size);
     irb_program_int(program, "maps_a_row", ism->maps_a_row);
@@ -235,11 +270,7 @@ static void splat_tessellation(const struct irb_ism *ism, const struct irb_progr
                                const struct irb_ism_settings *settings)
 {
     const struct irb_gl_api *api = &ism->gl->api;
-    struct irb_ism_passes *passes = ism->passes;
-    if (passes->measured != scene)
-        irb_tessellation_measure(scene, &passes->range);
-    passes->measured = scene;
-    const struct irb_tessellation_range *range = &passes->range;
+    const struct irb_tessellation_range *range = &ism->passes->range;
     irb_program_vec2(program, "area_range",
                      (float[]){(float)range->area[0], (float)range->area[1]});
     irb_program_vec2(program, "edge_range",
@@ -283,7 +314,10 @@ bool irb_ism_splat(struct irb_ism *ism, const struct irb_scene_gl *scene,
     if (!program || !prepare(ism, scene, points, lights, settings, err))
         return false;
     if (ism->count) {
-        set_uniforms(ism, program, scene->scene, settings);
+        const bool dynamic = settings->splatter == IRB_ISM_TESSELLATION;
+        if (dynamic)
+            measure(ism->passes, scene->scene, settings);
+        set_uniforms(ism, program, scene->scene, dynamic ? NULL : points, settings);
         if (settings->splatter == IRB_ISM_ATOMIC)
             splat_atomic(ism, program, points, settings);
         else if (settings->splatter == IRB_ISM_RASTER)

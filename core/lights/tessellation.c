@@ -57,6 +57,34 @@ double irb_tessellation_factor(const double range[2], double value, int order, d
     return fmax(ceil(smooth(x, order) * f_max), f_min);
 }
 
+/* OpenGL 4.5, 11.2.2.2: those on the edges, and on triangles within one another that have two
+ * segments fewer a side each, down to one point or none. */
+static double triangle_points(const double outer[3], double inner)
+{
+    double n = ceil(inner), sum = ceil(outer[0]) + ceil(outer[1]) + ceil(outer[2]);
+    if (n == 1 && sum > 3)
+        n = 2;
+    const double rings = floor((n - 1) / 2);
+    return sum + 3 * rings * (n - 1 - rings) + (fmod(n, 2) == 0 ? 1 : 0);
+}
+
+double irb_tessellation_points(const struct irb_scene *scene,
+                               const struct irb_tessellation_range *range, int order, double f_min,
+                               double f_max)
+{
+    double sum = 0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        double edges[3], outer[3], area = irb_triangle_size(scene, t, edges);
+        if (!(area > 0))
+            continue;
+        for (int i = 0; i < 3; i++)
+            outer[i] = irb_tessellation_factor(range->edge, edges[i], order, f_min, f_max);
+        sum +=
+            triangle_points(outer, irb_tessellation_factor(range->area, area, order, f_min, f_max));
+    }
+    return sum;
+}
+
 bool irb_tessellation_check(double f_min, double f_max, int order, struct irb_error *err)
 {
     if (!(f_min >= 1) || !(f_min <= f_max) || !(f_max <= most_factor))

@@ -28,6 +28,12 @@ double irb_triangle_size(const struct irb_scene *scene, uint32_t triangle, doubl
 double irb_tessellation_factor(const double range[2], double value, int order, double f_min,
                                double f_max);
 
+/* Points that tessellation hardware makes of the scene in point mode with the inner and outer
+ * levels t_A and t_e; triangles without area have none. */
+double irb_tessellation_points(const struct irb_scene *scene,
+                               const struct irb_tessellation_range *range, int order, double f_min,
+                               double f_max);
+
 /* IRB_E_INPUT unless 1 <= f_min <= f_max <= 1024 and the order is 3 or 5. */
 bool irb_tessellation_check(double f_min, double f_max, int order, struct irb_error *err);
 

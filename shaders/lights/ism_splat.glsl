@@ -9,7 +9,7 @@
  *     a c / r^2 (S/2)^2 / (1 + cos theta)^2  texels.
  * Of N maps, each gets s_f/N of the points, so that one of its splats stands for N/s_f times the
  * area a that a point of the whole set stands for. With scale^2 that is side^2, rounded to a whole
- * side and kept within [1, splat_most].
+ * side and kept within [1, splat_most]. a c is the point's own, or even_area for all points.
  */
 #include "lights/paraboloid.glsl"
 #include "lights/virtual_light.glsl"
@@ -19,6 +19,7 @@ layout(std140, binding = 0) uniform Lights { vec4 lights[VPL_VECTORS * VPL_BLOCK
 uniform int light_count;    /* N */
 uniform float splat_factor; /* s_f */
 uniform float splat_area;   /* (scale S/2)^2 N/s_f */
+uniform float even_area;    /* m2: a c of every point; 0: as its triangle has it */
 uniform int splat_most;     /* texels */
 uniform int map_size;       /* S, texels */
 uniform int maps_a_row;
@@ -60,7 +61,8 @@ splat project(vec3 position, vec3 share, map_light light)
     s.visible = local.z > HORIZON * s.distance && s.distance >= near;
     float along = s.distance + local.z;
     vec2 texel = (0.5 * local.xy / along + 0.5) * float(map_size);
-    float side2 = splat_area * abs(dot(share, d)) / (s.distance * along * along);
+    float facing = even_area > 0.0 ? even_area : abs(dot(share, d)) / s.distance;
+    float side2 = splat_area * facing / (along * along);
     s.side = int(clamp(sqrt(side2) + 0.5, 1.0, float(splat_most)));
     /* whole texels: centred on the texel where the side is odd, on its nearest corner where even */
     s.corner = ivec2(floor(texel - 0.5 * float(s.side - 1)));

@@ -166,6 +166,7 @@ int main(int argc, char **argv)
     struct irb_error err = {0};
     struct bench b = {.settings = {.splat_factor = 1,
                                    .splat_scale = 1,
+                                   .splat_size = IRB_ISM_SIZE_SURFACE,
                                    .splat_most = 5,
                                    .near = 0.001f,
                                    .f_min = 5,

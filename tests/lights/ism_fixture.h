@@ -72,6 +72,7 @@ struct fixture_splat {
     const struct irb_ism_settings *settings;
     const struct fixture_light *lights;
     double slack; /* m: how far off points may be beyond rounding */
+    double even;  /* m2: area that every point stands for; 0: its own */
 };
 
 static inline void fixture_draw(struct fixture_maps *maps, int map, const int corner[2], int side,
@@ -122,7 +123,8 @@ static inline void fixture_splat_point(struct fixture_maps *maps, const struct f
     if (!tie && !(local[2] > 1e-3 && r >= near))
         return;
     /* solid angle, to the disc's area by the Jacobian, to texels, to a splat's share */
-    double texels = fabs(facing) / (r * r) / pow(1 + local[2], 2) * pow(maps->size / 2.0, 2) *
+    facing = splat->even > 0 ? splat->even : fabs(facing);
+    double texels = facing / (r * r) / pow(1 + local[2], 2) * pow(maps->size / 2.0, 2) *
                     maps->count / (double)s->splat_factor * pow((double)s->splat_scale, 2);
     double side = fmin(fmax(floor(sqrt(texels) + 0.5), 1), s->splat_most);
     tie = tie ||

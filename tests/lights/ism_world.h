@@ -15,6 +15,7 @@ static inline struct irb_ism_settings default_settings(void)
     return (struct irb_ism_settings){.splatter = IRB_ISM_ATOMIC,
                                      .splat_factor = 1,
                                      .splat_scale = 1,
+                                     .splat_size = IRB_ISM_SIZE_SURFACE,
                                      .splat_most = 5,
                                      .near = 0.001f,
                                      .f_min = 5,
@@ -109,7 +110,9 @@ static inline struct fixture_maps splat(const struct world *w,
 static inline struct fixture_maps expect(const struct world *w,
                                          const struct irb_ism_settings *settings)
 {
-    const struct fixture_splat s = {w->scene, settings, w->lights, 0};
+    const bool even = settings->splat_size == IRB_ISM_SIZE_EVEN;
+    const struct fixture_splat s = {w->scene, settings, w->lights, 0,
+                                    even ? w->list.area / (double)w->list.count : 0};
     return fixture_splat_list(&s, &w->list, irb_scene_current_positions(w->scene), SIZE,
                               w->view.count);
 }

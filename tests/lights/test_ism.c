@@ -19,10 +19,16 @@ static const float grey[3] = {0.5f, 0.5f, 0.5f};
 static const struct {
     int lights, most;
     float factor, scale, near;
+    int size;
 } cases[] = {
-    {13, 1, 1, 1, 0.001f},       {64, 9, 1, 1, 0},      {1, 5, 1, 1, 0.1f},
-    {3, 40, 1, 2, 0.2f},         {13, 5, 3, 1, 0.001f}, {20, 5, 0.4f, 1, 0.001f},
-    {7, 5, 2.25f, 0.5f, 0.001f},
+    {13, 1, 1, 1, 0.001f, IRB_ISM_SIZE_SURFACE},
+    {64, 9, 1, 1, 0, IRB_ISM_SIZE_SURFACE},
+    {1, 5, 1, 1, 0.1f, IRB_ISM_SIZE_SURFACE},
+    {3, 40, 1, 2, 0.2f, IRB_ISM_SIZE_SURFACE},
+    {13, 5, 3, 1, 0.001f, IRB_ISM_SIZE_SURFACE},
+    {20, 5, 0.4f, 1, 0.001f, IRB_ISM_SIZE_SURFACE},
+    {7, 5, 2.25f, 0.5f, 0.001f, IRB_ISM_SIZE_SURFACE},
+    {13, 40, 1.5f, 1, 0.001f, IRB_ISM_SIZE_EVEN},
 };
 
 static void test_points(void **state)
@@ -36,6 +42,7 @@ static void test_points(void **state)
         settings.splat_factor = cases[k].factor;
         settings.splat_scale = cases[k].scale;
         settings.near = cases[k].near;
+        settings.splat_size = cases[k].size;
         require_splat(&w, &settings);
         destroy_world(&w);
     }
@@ -53,6 +60,7 @@ static void test_raster(void **state)
         settings.splat_factor = cases[k].factor;
         settings.splat_scale = cases[k].scale;
         settings.near = cases[k].near;
+        settings.splat_size = cases[k].size;
         struct fixture_maps atomic = splat(&w, &settings);
         settings.splatter = IRB_ISM_RASTER;
         struct fixture_maps raster = splat(&w, &settings);
@@ -218,6 +226,8 @@ static void test_tessellation_shares(void **state)
     struct irb_buffer *sums = irb_buffer_create(gl, "sums", 8, (uint32_t[2]){0, 0}, &err);
     for (uint32_t t = 0; t < 12; t++)
         total += irb_triangle_size(w.scene, t, unused);
+    struct irb_tessellation_range range;
+    irb_tessellation_measure(w.scene, &range);
     const float factors[][2] = {{1, 1}, {1, 2}, {1, 7}, {3, 16}, {2, 64}, {64, 64}};
     for (int k = 0; k < 6; k++) {
         uint32_t found[2] = {0, 0};
@@ -230,6 +240,10 @@ static void test_tessellation_shares(void **state)
         REQUIRE_OK(irb_ism_splat(w.ism, w.scene_gl, NULL, &w.view, &settings, &err));
         REQUIRE_OK(irb_buffer_read(sums, 0, 8, found, &err));
         REQUIRE_REL(found[1] * 1e-8, total, 1e-5);
+        REQUIRE_NEAR(found[0],
+                     irb_tessellation_points(w.scene, &range, 3, (double)factors[k][0],
+                                             (double)factors[k][1]),
+                     0);
     }
     irb_buffer_destroy(sums);
     destroy_world(&w);

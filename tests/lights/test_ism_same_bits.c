@@ -30,6 +30,7 @@ static struct fixture_maps build(struct irb_gl *gl, const struct irb_scene_gl *s
     const struct irb_ism_settings settings = {.splatter = how[0],
                                               .splat_factor = 1.3f,
                                               .splat_scale = 1,
+                                              .splat_size = IRB_ISM_SIZE_SURFACE,
                                               .splat_most = 7,
                                               .near = 0.001f,
                                               .pull_push = 2,
