@@ -222,7 +222,8 @@ bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *il,
                          const struct irb_shade_settings *settings,
                          const struct irb_shade_batch *batch, struct irb_error *err)
 {
-    if (!check(lights, ism, settings, batch, err) || !prepare_taps(shade, settings, err) ||
+    if (!check(lights, ism, settings, batch, err) ||
+        (settings->visibility == IRB_SHADE_PCSS && !prepare_taps(shade, settings, err)) ||
         !prepare_lost(shade, il, settings, batch->accumulate, err))
         return false;
     const struct irb_raster_maps *raster =
@@ -251,6 +252,24 @@ bool irb_shade_run(struct irb_shade *shade, struct irb_interleave *interleave,
 {
     const struct irb_shade_batch all = {.count = lights->count};
     return irb_shade_run_batch(shade, interleave, lights, ism, settings, &all, err);
+}
+
+bool irb_shade_run_raster(struct irb_shade *shade, struct irb_interleave *interleave,
+                          const struct irb_virtual_lights *lights, struct irb_raster_maps *maps,
+                          const struct irb_scene_gl *scene, float near,
+                          const struct irb_shade_settings *settings, struct irb_error *err)
+{
+    struct irb_shade_batch batch = {.raster = maps};
+    do { /* no lights at all still take one batch, which writes zeros */
+        const int rest = lights->count - batch.first;
+        batch.count = rest < maps->capacity ? rest : maps->capacity;
+        batch.accumulate = batch.first > 0;
+        if (!irb_raster_maps_render(maps, scene, lights, batch.first, batch.count, near, err) ||
+            !irb_shade_run_batch(shade, interleave, lights, NULL, settings, &batch, err))
+            return false;
+        batch.first += batch.count;
+    } while (batch.first < lights->count);
+    return true;
 }
 
 static bool read_rows(struct irb_shade *shade, const struct irb_interleave *il, float *rows,

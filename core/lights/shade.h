@@ -38,7 +38,8 @@ enum irb_shade_visibility {
     IRB_SHADE_NONE,   /* V = 1 */
     IRB_SHADE_BINARY, /* of the light's centre: one texel */
     IRB_SHADE_PCSS,   /* of its disc; of its centre where A = 0 */
-    IRB_SHADE_RASTER, /* of its centre, in rasterised maps: by irb_shade_run_batch() only */
+    IRB_SHADE_RASTER, /* of its centre, in rasterised maps: by irb_shade_run_raster() or in batches
+                       */
 };
 
 struct irb_shade_settings {
@@ -80,6 +81,15 @@ bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *interle
                          const struct irb_virtual_lights *lights, const struct irb_ism *ism,
                          const struct irb_shade_settings *settings,
                          const struct irb_shade_batch *batch, struct irb_error *err);
+
+/* RASTER from all lights, like irb_shade_run(): in batches of the maps' capacity, each batch's maps
+ * are rendered, then shaded. `near` as irb_raster_maps_render() has it. Who times maps and shading
+ * apart calls the two himself. A bias of 0.01 and no slope came closest to rays among those tried
+ * in the Cornell box with objects (maps of 128 x 128 texels). */
+bool irb_shade_run_raster(struct irb_shade *shade, struct irb_interleave *interleave,
+                          const struct irb_virtual_lights *lights, struct irb_raster_maps *maps,
+                          const struct irb_scene_gl *scene, float near,
+                          const struct irb_shade_settings *settings, struct irb_error *err);
 
 /* Share of the irradiance that the last runs' bound took, [0,1]; 0 where there was no bound, or no
  * light. Waits for the GPU. */

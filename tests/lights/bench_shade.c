@@ -16,14 +16,16 @@
 #include <stdio.h>
 
 enum { WIDTH = 800, HEIGHT = 600, RSM = 64, MAP = 128, LIGHTS_MOST = 512, REPEATS = 9 };
+enum { RASTER_LIGHTS = 128 };
 
 static const struct {
     const char *name;
     int lights, tiles, visibility, taps;
 } passes[] = {
-    {"none", 128, 3, IRB_SHADE_NONE, 16},      {"binary", 128, 3, IRB_SHADE_BINARY, 16},
-    {"PCSS 8 + 8", 128, 3, IRB_SHADE_PCSS, 8}, {"PCSS 16 + 16", 128, 3, IRB_SHADE_PCSS, 16},
-    {"none", 512, 4, IRB_SHADE_NONE, 16},      {"binary", 512, 4, IRB_SHADE_BINARY, 16},
+    {"none", 128, 3, IRB_SHADE_NONE, 16},         {"binary", 128, 3, IRB_SHADE_BINARY, 16},
+    {"raster", 128, 3, IRB_SHADE_RASTER, 16},     {"PCSS 8 + 8", 128, 3, IRB_SHADE_PCSS, 8},
+    {"PCSS 16 + 16", 128, 3, IRB_SHADE_PCSS, 16}, {"none", 512, 4, IRB_SHADE_NONE, 16},
+    {"binary", 512, 4, IRB_SHADE_BINARY, 16},
 };
 /* Then the passes round it, at 3 x 3. */
 enum { SHADE_PASSES = sizeof passes / sizeof *passes, SPLIT = SHADE_PASSES, MERGE, FILTER, PASSES };
@@ -33,6 +35,7 @@ struct bench {
     struct irb_scene *scene;
     struct irb_gbuffer *gbuffer;
     struct irb_ism ism;
+    struct irb_raster_maps *raster; /* hemicubes of the first RASTER_LIGHTS */
     struct irb_buffer *lights;
     struct irb_interleave *interleave[5]; /* by tiles a side */
     struct irb_shade *shade;
@@ -87,6 +90,11 @@ static void make_lights(struct bench *b, const struct irb_scene_gl *scene,
     irb_image_destroy(&flux);
     irb_rsm_destroy(rsm);
     raycast_destroy(&cast);
+    const struct irb_virtual_lights first = {b->lights, RASTER_LIGHTS};
+    b->raster = irb_raster_maps_create(b->gl, IRB_RASTER_HEMICUBE, MAP, RASTER_LIGHTS, &err);
+    must(b->raster &&
+             irb_raster_maps_render(b->raster, scene, &first, 0, RASTER_LIGHTS, 1e-3f, &err),
+         &err);
 }
 
 static void make(struct bench *b)
@@ -131,8 +139,9 @@ static void run_shade(struct bench *b, int pass)
                                                 .blocker_taps = passes[pass].taps,
                                                 .search_scale = 3,
                                                 .penumbra_scale = 1};
-    must(irb_shade_run(b->shade, b->interleave[passes[pass].tiles], &lights, &b->ism, &settings,
-                       &err),
+    const struct irb_shade_batch all = {.count = lights.count, .raster = b->raster};
+    must(irb_shade_run_batch(b->shade, b->interleave[passes[pass].tiles], &lights, &b->ism,
+                             &settings, &all, &err),
          &err);
 }
 
@@ -210,6 +219,7 @@ int main(int argc, char **argv)
     for (int n = 3; n <= 4; n++)
         irb_interleave_destroy(b.interleave[n]);
     irb_shade_destroy(b.shade);
+    irb_raster_maps_destroy(b.raster);
     irb_texture_destroy(b.out);
     irb_texture_destroy(b.ism.atlas);
     irb_buffer_destroy(b.lights);

@@ -524,6 +524,36 @@ static void test_moving_object(void **state)
     irb_scene_destroy(scene);
 }
 
+/* A cloth whose vertices move. */
+static void test_deforming_object(void **state)
+{
+    (void)state;
+    enum { LIGHTS = 2, SIZE = 24 };
+    struct irb_error err = {0};
+    struct irb_scene *scene = fixture_scene("cornell-cloth");
+    const struct fixture_light lights[LIGHTS] = {
+        {.position = {0.3f, 0.001f, 0.2f}, .normal = {0, 1, 0}},
+        {.position = {0.1f, 0.3f, 0.3f}, .normal = {0.96f, 0.28f, 0}},
+    };
+    struct irb_virtual_lights view = fixture_lights(gl, lights, LIGHTS);
+    struct irb_scene_gl *scene_gl = irb_scene_gl_create(gl, scene, &err);
+    REQUIRE_OK(scene_gl);
+    REQUIRE_OK(irb_scene_animate(scene, 0.7, &err));
+    assert_non_null(scene->deform);
+    REQUIRE_OK(irb_scene_gl_update(scene_gl, &err));
+    for (int p = 0; p < PROJECTIONS; p++) {
+        struct irb_raster_maps *maps =
+            irb_raster_maps_create(gl, (enum irb_raster_projection)p, SIZE, LIGHTS, &err);
+        REQUIRE_OK(maps);
+        REQUIRE_OK(irb_raster_maps_render(maps, scene_gl, &view, 0, LIGHTS, 1e-3f, &err));
+        check_by_rays(maps, scene, lights, LIGHTS, 1e-3);
+        irb_raster_maps_destroy(maps);
+    }
+    irb_buffer_destroy((struct irb_buffer *)view.buffer);
+    irb_scene_gl_destroy(scene_gl);
+    irb_scene_destroy(scene);
+}
+
 /* A tilted sheet whose left half is there and whose right half is cut away, before a wall. */
 static struct irb_scene *make_masked(void)
 {
@@ -812,11 +842,17 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), argc > 2 ? argv[2] : NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_room),       cmocka_unit_test(test_look_ups),
-        cmocka_unit_test(test_objects),    cmocka_unit_test(test_moving_object),
-        cmocka_unit_test(test_alpha_mask), cmocka_unit_test(test_layers),
-        cmocka_unit_test(test_batches),    cmocka_unit_test(test_near),
-        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_room),
+        cmocka_unit_test(test_look_ups),
+        cmocka_unit_test(test_objects),
+        cmocka_unit_test(test_moving_object),
+        cmocka_unit_test(test_deforming_object),
+        cmocka_unit_test(test_alpha_mask),
+        cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_batches),
+        cmocka_unit_test(test_near),
+        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_refusals),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

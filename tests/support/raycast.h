@@ -12,12 +12,13 @@
 #include <stdlib.h>
 
 struct raycast {
-    double (*corners)[3][3]; /* of every triangle in its current pose; owned */
+    double (*corners)[3][3]; /* of every triangle where it is now; owned */
     uint32_t count;
 };
 
 static inline void raycast_create(struct raycast *cast, const struct irb_scene *scene)
 {
+    const float *positions = irb_scene_current_positions(scene);
     cast->count = 0;
     cast->corners = malloc(scene->triangle_count * sizeof *cast->corners);
     for (int o = 0; o < scene->object_count; o++) {
@@ -25,7 +26,7 @@ static inline void raycast_create(struct raycast *cast, const struct irb_scene *
         const float *m = object->transform;
         for (uint32_t i = 0; i < 3 * object->triangle_count; i++) {
             uint32_t vertex = scene->indices[3 * (size_t)object->first_triangle + i];
-            const float *p = scene->positions + 3 * (size_t)vertex;
+            const float *p = positions + 3 * (size_t)vertex;
             for (int c = 0; c < 3; c++)
                 cast->corners[cast->count + i / 3][i % 3][c] = (double)m[c] * p[0] +
                                                                (double)m[4 + c] * p[1] +
