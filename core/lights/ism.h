@@ -59,6 +59,9 @@ struct irb_ism_settings {
     int splat_size;     /* enum irb_ism_size */
     int splat_most;     /* texels, >= 1: largest side of a splat */
     float near;         /* share of the scene's diagonal at rest, >= 0 */
+    float near_radii;   /* >= 0; 1 leaves out what is nearer than the radius sqrt(A/pi) of an area
+                           light: the surface that it stands for, which lies before its centre
+                           where it bends */
     int pull_push;      /* levels j, 0 = off: holes up to about 2^j texels wide are filled */
     int pull;           /* enum irb_ism_pull */
     float f_min, f_max; /* TESSELLATION: f[min,max] of eqs 5.3 and 5.4, at most 64 */

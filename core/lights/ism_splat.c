@@ -35,9 +35,9 @@ static bool check_numbers(const struct irb_ism_settings *s, struct irb_error *er
                         (double)s->splat_scale, s->splat_most);
     if (s->splat_size < IRB_ISM_SIZE_EVEN || s->splat_size > IRB_ISM_SIZE_SURFACE)
         return irb_fail(err, IRB_E_INTERNAL, "ism: splat size %d", s->splat_size);
-    if (!(s->near >= 0) || !isfinite(s->near))
-        return irb_fail(err, IRB_E_INPUT, "ism: expected a near cut of at least 0, found %g",
-                        (double)s->near);
+    if (!(s->near >= 0) || !isfinite(s->near) || !(s->near_radii >= 0) || !isfinite(s->near_radii))
+        return irb_fail(err, IRB_E_INPUT, "ism: expected near cuts of at least 0, found %g and %g",
+                        (double)s->near, (double)s->near_radii);
     return true;
 }
 
@@ -158,6 +158,7 @@ static void set_uniforms(const struct irb_ism *ism, const struct irb_program *pr
     irb_program_int(program, "map_size", ism->map_size);
     irb_program_int(program, "maps_a_row", ism->maps_a_row);
     irb_program_float(program, "near", s->near * irb_scene_diagonal(scene));
+    irb_program_float(program, "near_radii", s->near_radii);
     irb_world_triangles_bind(ism->passes->triangles, program, TRIANGLES_UNIT);
     ism->gl->api.BindBufferBase(GL_UNIFORM_BUFFER, LIGHTS_BINDING, ism->passes->lights->id);
 }

@@ -24,13 +24,17 @@ uniform int splat_most;     /* texels */
 uniform int map_size;       /* S, texels */
 uniform int maps_a_row;
 uniform float near;         /* m: nearer points are left out */
+uniform float near_radii;   /* likewise, in radii sqrt(A/pi) of the light */
 
 /* Sine of the lowest elevation above a light's plane: below are points of the surface that it
  * stands on, up to rounding. A light sends 1e-6 of its flux there, into a sixteenth of a texel. */
 const float HORIZON = 1e-3;
 
+const float INV_PI = 0.318309886183790672;
+
 struct map_light {
     vec3 position;
+    float near; /* m */
     mat3 frame;
     bool dark;
 };
@@ -39,6 +43,7 @@ map_light fetch_light(int map)
 {
     map_light l;
     l.position = lights[VPL_VECTORS * map].xyz;
+    l.near = max(near, near_radii * sqrt(lights[VPL_VECTORS * map].w * INV_PI));
     l.frame = light_frame(lights[VPL_VECTORS * map + 1].xyz);
     vec3 flux = lights[VPL_VECTORS * map + 2].xyz;
     l.dark = !(max(flux.x, max(flux.y, flux.z)) > 0.0);
@@ -58,7 +63,7 @@ splat project(vec3 position, vec3 share, map_light light)
     vec3 d = position - light.position;
     vec3 local = d * light.frame;
     s.distance = sqrt(dot(d, d));
-    s.visible = local.z > HORIZON * s.distance && s.distance >= near;
+    s.visible = local.z > HORIZON * s.distance && s.distance >= light.near;
     float along = s.distance + local.z;
     vec2 texel = (0.5 * local.xy / along + 0.5) * float(map_size);
     float facing = even_area > 0.0 ? even_area : abs(dot(share, d)) / s.distance;

@@ -105,7 +105,8 @@ static inline void fixture_splat_point(struct fixture_maps *maps, const struct f
 {
     const struct irb_ism_settings *s = splat->settings;
     const struct fixture_light *light = &splat->lights[map];
-    const double near = s->near * (double)irb_scene_diagonal(splat->scene);
+    const double near = fmax((double)s->near * (double)irb_scene_diagonal(splat->scene),
+                             (double)s->near_radii * sqrt((double)light->position[3] / M_PI));
     double frame[3][3], d[3], local[3] = {0}, r = 0, facing = 0, corner[2];
     int whole[2];
     if (!(light->flux[0] > 0 || light->flux[1] > 0 || light->flux[2] > 0))

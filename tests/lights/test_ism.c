@@ -48,6 +48,21 @@ static void test_points(void **state)
     }
 }
 
+/* Lights with areas: what is nearer than a share of their radii is left out. */
+static void test_near_radii(void **state)
+{
+    (void)state;
+    struct world w = {0};
+    struct irb_ism_settings settings = default_settings();
+    create_cornell(&w, gl, 13);
+    for (int l = 0; l < 13; l++)
+        w.lights[l].position[3] = 0.01f * (float)l;
+    replace_lights(&w, 13);
+    settings.near_radii = 1.5f;
+    require_splat(&w, &settings);
+    destroy_world(&w);
+}
+
 /* The same bits. */
 static void test_raster(void **state)
 {
@@ -387,15 +402,11 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), argc > 2 ? argv[2] : NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_raster),
-        cmocka_unit_test(test_chunks),
-        cmocka_unit_test(test_follow),
-        cmocka_unit_test(test_deforming),
-        cmocka_unit_test(test_tessellation),
-        cmocka_unit_test(test_tessellation_shares),
-        cmocka_unit_test(test_borders),
-        cmocka_unit_test(test_no_lights),
+        cmocka_unit_test(test_points),       cmocka_unit_test(test_near_radii),
+        cmocka_unit_test(test_raster),       cmocka_unit_test(test_chunks),
+        cmocka_unit_test(test_follow),       cmocka_unit_test(test_deforming),
+        cmocka_unit_test(test_tessellation), cmocka_unit_test(test_tessellation_shares),
+        cmocka_unit_test(test_borders),      cmocka_unit_test(test_no_lights),
         cmocka_unit_test(test_refusals),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
