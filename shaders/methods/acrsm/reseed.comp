@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The (re-)seed list (thesis 4.4, 5.3.1): clusters without a texel take the next points of the
+ * Halton sequence, in order. One invocation, since each point's number depends on all before.
+ */
+layout(local_size_x = 1) in;
+
+#include "methods/acrsm/cluster.glsl"
+#include "methods/acrsm/lists.glsl"
+
+layout(std430, binding = 0) readonly buffer Clusters { cluster clusters[CLUSTERS_MOST]; };
+
+uniform int active_count;
+uniform bool reseed; /* vanished clusters too, not only new ones */
+
+void main()
+{
+    uint next = next_seed, vanished = 0u;
+    for (int i = 0; i < active_count; i++) {
+        int count = clusters[i].count;
+        if (count == UNBORN || (reseed && count == VANISHED))
+            seed_number[i] = next++;
+        if (reseed && count == VANISHED)
+            vanished++;
+    }
+    next_seed = next;
+    reseeded = vanished;
+}
