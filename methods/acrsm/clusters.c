@@ -48,7 +48,6 @@ static const struct {
     [ACRSM_FLUX_ROWS] = {"flux_rows.comp"},
     [ACRSM_PICTURE] = {"debug.comp", "LAYER 0"},
     [ACRSM_PICTURE + 1] = {"debug.comp", "LAYER 1"},
-    [ACRSM_PICTURE + 2] = {"debug.comp", "LAYER 2"},
 };
 
 static void destroy_programs(struct acrsm_clusters *c)

@@ -85,8 +85,8 @@ enum acrsm_program {
     ACRSM_CENTRES,
     ACRSM_LIGHTS, /* + flux: 3 variants */
     ACRSM_FLUX_ROWS = ACRSM_LIGHTS + 3,
-    ACRSM_PICTURE, /* + layer: 3 variants */
-    ACRSM_PROGRAMS = ACRSM_PICTURE + 3
+    ACRSM_PICTURE, /* + enum acrsm_picture */
+    ACRSM_PROGRAMS = ACRSM_PICTURE + 2
 };
 
 /* Where a light stands, world. */
@@ -159,11 +159,11 @@ struct acrsm_report {
 bool acrsm_clusters_report(struct acrsm_clusters *clusters, const struct irb_rsm *rsm,
                            struct acrsm_report *report, struct irb_error *err);
 
-/* Pictures (RGBA32F, resolution^2) for debugging. */
-enum acrsm_picture { ACRSM_PICTURE_MAP, ACRSM_PICTURE_CENTRES, ACRSM_PICTURE_IMPORTANCE };
+/* Pictures (RGBA32F, resolution^2) for debugging: the clusters in colours that stay, and with their
+ * centres marked. */
+enum acrsm_picture { ACRSM_PICTURE_MAP, ACRSM_PICTURE_CENTRES };
 bool acrsm_clusters_picture(struct acrsm_clusters *clusters, enum acrsm_picture kind,
-                            const struct irb_texture *importance, const struct irb_texture *picture,
-                            struct irb_error *err);
+                            const struct irb_texture *picture, struct irb_error *err);
 
 /* Private: a program for RSMs of the clusters' layout; the bindings of shaders/methods/acrsm/; a
  * number of invocations in groups of 64, and a barrier for all that the next pass may read. */

@@ -99,8 +99,7 @@ bool acrsm_clusters_report(struct acrsm_clusters *c, const struct irb_rsm *rsm,
 }
 
 bool acrsm_clusters_picture(struct acrsm_clusters *c, enum acrsm_picture kind,
-                            const struct irb_texture *importance, const struct irb_texture *picture,
-                            struct irb_error *err)
+                            const struct irb_texture *picture, struct irb_error *err)
 {
     const struct irb_gl_api *api = &c->gl->api;
     const struct irb_program *program =
@@ -111,8 +110,6 @@ bool acrsm_clusters_picture(struct acrsm_clusters *c, enum acrsm_picture kind,
     irb_program_use(program);
     api->BindTextureUnit(0, c->map->id);
     irb_program_int(program, "cluster_map", 0);
-    api->BindTextureUnit(1, importance->id);
-    irb_program_int(program, "importance", 1);
     api->BindImageTexture(0, picture->id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
     api->DispatchCompute(groups, groups, 1);
     acrsm_barrier(c);

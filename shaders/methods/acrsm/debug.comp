@@ -2,14 +2,13 @@
  *
  * Pictures of the clustering. LAYER 0: each cluster in a colour of its own, the same in all frames;
  * lit texels without a cluster are white, unlit ones black. LAYER 1: the same, darker, with a white
- * dot at each centre. LAYER 2: importance.
+ * dot at each centre.
  */
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "methods/acrsm/cluster.glsl"
 
 uniform usampler2D cluster_map;
-uniform sampler2D importance;
 layout(rgba32f, binding = 0) writeonly uniform image2D picture;
 
 const float DARKER = 0.35;
@@ -44,11 +43,7 @@ void main()
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, textureSize(cluster_map, 0))))
         return;
-#if LAYER == 2
-    vec3 colour = vec3(texelFetch(importance, texel, 0).r);
-#else
     vec3 colour = colour_of(texelFetch(cluster_map, texel, 0).r);
-#endif
 #if LAYER == 1
     colour = near_centre(texel) ? vec3(1.0) : DARKER * colour;
 #endif

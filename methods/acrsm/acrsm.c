@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Adaptively-clustered reflective shadow maps: one-bounce light from clusters of RSM texels taken
+ * as area lights, with soft shadows from imperfect shadow maps and interleaved shading.
+ */
+#include "methods/method.h"
+#include "methods/acrsm/shadows.h"
+
+#include <stdlib.h>
+
+extern const struct irb_method irb_method_acrsm;
+
+enum {
+    STAGE_IMPORTANCE,
+    STAGE_EVALUATE,
+    STAGE_SEED,
+    STAGE_MAP,
+    STAGE_AVERAGE,
+    STAGE_SPLAT,
+    STAGE_PULL_PUSH,
+    STAGE_SPLIT,
+    STAGE_LIGHT,
+    STAGE_MERGE,
+    STAGE_FILTER
+};
+static const char *const stages[] = {"importance", "evaluate", "seed",  "map",   "average", "splat",
+                                     "pull-push",  "split",    "light", "merge", "filter",  NULL};
+
+struct acrsm_state {
+    struct irb_gl *gl; /* borrowed */
+    int width, height;
+    uint64_t seed;
+    struct irb_texture *irradiance; /* RGBA32F, W/m2; share of the light that is in shadow */
+    /* for the RSM's resolution, when the first frame shows it */
+    struct irb_importance *importance;
+    struct irb_pyramid *pyramid;
+    struct acrsm_clusters *clusters;
+    struct acrsm_lighting lighting;
+    /* for debugging, when first asked for */
+    struct irb_texture *map_picture, *centre_picture, *shadow_term;
+    struct irb_program *shadow_term_program;
+};
+
+static void destroy_clustering(struct acrsm_state *s)
+{
+    irb_importance_destroy(s->importance);
+    irb_pyramid_destroy(s->pyramid);
+    acrsm_clusters_destroy(s->clusters);
+    irb_texture_destroy(s->map_picture);
+    irb_texture_destroy(s->centre_picture);
+    s->importance = NULL;
+    s->pyramid = NULL;
+    s->clusters = NULL;
+    s->map_picture = s->centre_picture = NULL;
+}
+
+static void acrsm_destroy(void *user)
+{
+    struct acrsm_state *s = user;
+    if (!s)
+        return;
+    destroy_clustering(s);
+    acrsm_lighting_destroy(&s->lighting);
+    irb_texture_destroy(s->irradiance);
+    irb_texture_destroy(s->shadow_term);
+    irb_program_destroy(s->shadow_term_program);
+    free(s);
+}
+
+static bool acrsm_resize(void *user, int width, int height, struct irb_error *err)
+{
+    struct acrsm_state *s = user;
+    const struct irb_texture_desc desc = {
+        .name = "acrsm: irradiance", .format = GL_RGBA32F, .width = width, .height = height};
+    struct irb_texture *irradiance = irb_texture_create(s->gl, &desc, err);
+    if (!irradiance)
+        return false;
+    irb_texture_destroy(s->irradiance);
+    irb_texture_destroy(s->shadow_term);
+    s->irradiance = irradiance;
+    s->shadow_term = NULL;
+    s->width = width;
+    s->height = height;
+    return true;
+}
+
+static void *acrsm_create(struct irb_gl *gl, const struct irb_scene_gl *scene, int width,
+                          int height, const void *settings, struct irb_error *err)
+{
+    (void)scene;
+    (void)settings;
+    struct acrsm_state *s = calloc(1, sizeof *s);
+    if (!s) {
+        irb_fail(err, IRB_E_MEMORY, "acrsm: out of memory");
+        return NULL;
+    }
+    s->gl = s->lighting.gl = gl;
+    if (acrsm_resize(s, width, height, err))
+        return s;
+    acrsm_destroy(s);
+    return NULL;
+}
+
+static bool acrsm_begin_sequence(void *user, const void *settings, uint64_t seed,
+                                 struct irb_error *err)
+{
+    struct acrsm_state *s = user;
+    (void)settings;
+    s->seed = seed;
+    return !s->clusters || acrsm_clusters_begin(s->clusters, seed, err);
+}
+
+/* Another resolution of the RSM is another sequence. */
+static bool prepare_clustering(struct acrsm_state *s, int resolution, struct irb_error *err)
+{
+    if (s->clusters && s->clusters->resolution == resolution)
+        return true;
+    destroy_clustering(s);
+    return (s->importance = irb_importance_create(s->gl, resolution, err)) &&
+           (s->pyramid = irb_pyramid_create(s->gl, resolution, err)) &&
+           (s->clusters = acrsm_clusters_create(s->gl, resolution, err)) &&
+           acrsm_clusters_begin(s->clusters, s->seed, err);
+}
+
+/* Runs a call as a stage, unless one before it failed. */
+#define STAGE(which, call)                                                                         \
+    do {                                                                                           \
+        irb_timer_begin(in->timer, which);                                                         \
+        ok = ok && (call);                                                                         \
+        irb_timer_end(in->timer);                                                                  \
+    } while (0)
+
+static bool cluster(struct acrsm_state *s, const struct irb_frame_inputs *in,
+                    const struct acrsm_resolved *r, struct irb_error *err)
+{
+    struct acrsm_clusters *c = s->clusters;
+    const struct acrsm_settings *settings = &r->clustering;
+    const struct irb_texture *importance = s->importance->map;
+    bool ok = acrsm_clusters_frame(c, in->rsm, settings, err);
+    STAGE(STAGE_IMPORTANCE, irb_importance_compute(s->importance, in->rsm, in->light, in->gbuffer,
+                                                   &r->importance, err) &&
+                                irb_pyramid_build(s->pyramid, importance, err));
+    STAGE(STAGE_EVALUATE, acrsm_evaluate(c, in->rsm, settings, err));
+    STAGE(STAGE_SEED, acrsm_carry(c, in->rsm, settings, err) &&
+                          acrsm_seed(c, in->rsm, importance, s->pyramid, settings, err));
+    STAGE(STAGE_MAP, acrsm_map(c, in->rsm, importance, settings, err));
+    STAGE(STAGE_AVERAGE, acrsm_average(c, in->rsm, in->light, importance, settings, err));
+    return ok;
+}
+
+static bool light(struct acrsm_state *s, const struct irb_frame_inputs *in,
+                  const struct acrsm_resolved *r, struct irb_error *err)
+{
+    const struct irb_virtual_lights lights = acrsm_clusters_lights(s->clusters);
+    struct acrsm_lighting *l = &s->lighting;
+    const struct irb_ism *maps = acrsm_has_shadows(r) ? l->ism : NULL;
+    bool ok = true;
+    if (maps) {
+        STAGE(STAGE_SPLAT, irb_ism_splat(l->ism, in->scene, r->dynamic_points ? NULL : l->points,
+                                         &lights, &r->ism, err));
+        STAGE(STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
+    }
+    STAGE(STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
+    STAGE(STAGE_LIGHT, irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
+    STAGE(STAGE_MERGE, irb_interleave_merge(l->interleave, err));
+    STAGE(STAGE_FILTER, irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine,
+                                              s->irradiance, err));
+    return ok;
+}
+
+static void add_statistic(struct irb_frame_output *out, const char *name, double value)
+{
+    out->statistics[out->statistic_count].name = name;
+    out->statistics[out->statistic_count++].value = value;
+}
+
+/* Outside the stages: the report is no part of the method's cost. */
+static bool report(struct acrsm_state *s, const struct irb_frame_inputs *in,
+                   const struct acrsm_resolved *r, struct irb_frame_output *out,
+                   struct irb_error *err)
+{
+    struct acrsm_report clusters;
+    double coverage = 0;
+    if (!acrsm_clusters_report(s->clusters, in->rsm, &clusters, err) ||
+        (acrsm_has_shadows(r) && !irb_ism_coverage(s->lighting.ism, &coverage, err)))
+        return false;
+    out->lost_energy = clusters.uncovered;
+    add_statistic(out, "clusters", clusters.in_use);
+    add_statistic(out, "reseeded", clusters.reseeded);
+    add_statistic(out, "merged", clusters.merged);
+    add_statistic(out, "split", clusters.split);
+    add_statistic(out, "delta_spread", clusters.spread);
+    add_statistic(out, "count_spread", clusters.count_spread);
+    add_statistic(out, "flux_gain", clusters.gain);
+    if (acrsm_has_shadows(r))
+        add_statistic(out, "ism_coverage", coverage);
+    return true;
+}
+
+static bool prepare_pictures(struct acrsm_state *s, struct irb_error *err)
+{
+    const int resolution = s->clusters->resolution;
+    const struct irb_texture_desc map = {
+        .name = "acrsm: picture", .format = GL_RGBA32F, .width = resolution, .height = resolution};
+    const struct irb_texture_desc term = {
+        .name = "acrsm: shadow term", .format = GL_R32F, .width = s->width, .height = s->height};
+    const struct irb_program_desc program = {.name = "acrsm: shadow term",
+                                             .compute = "methods/acrsm/shadow_term.comp"};
+    return (s->map_picture || (s->map_picture = irb_texture_create(s->gl, &map, err))) &&
+           (s->centre_picture || (s->centre_picture = irb_texture_create(s->gl, &map, err))) &&
+           (s->shadow_term || (s->shadow_term = irb_texture_create(s->gl, &term, err))) &&
+           (s->shadow_term_program ||
+            (s->shadow_term_program = irb_program_create(s->gl, &program, err)));
+}
+
+static bool draw_shadow_term(struct acrsm_state *s, struct irb_error *err)
+{
+    const struct irb_gl_api *api = &s->gl->api;
+    irb_program_use(s->shadow_term_program);
+    api->BindTextureUnit(0, s->irradiance->id);
+    irb_program_int(s->shadow_term_program, "irradiance", 0);
+    api->BindImageTexture(0, s->shadow_term->id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+    api->DispatchCompute((unsigned)(s->width + 7) / 8, (unsigned)(s->height + 7) / 8, 1);
+    api->MemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    return irb_gl_check(s->gl, "acrsm: shadow term", err);
+}
+
+static void add_layer(struct irb_frame_output *out, const char *name,
+                      const struct irb_texture *texture, enum irb_debug_kind kind)
+{
+    out->debug[out->debug_count].name = name;
+    out->debug[out->debug_count].texture = texture;
+    out->debug[out->debug_count++].kind = kind;
+}
+
+static bool debug(struct acrsm_state *s, const struct acrsm_resolved *r,
+                  struct irb_frame_output *out, struct irb_error *err)
+{
+    if (!prepare_pictures(s, err) ||
+        !acrsm_clusters_picture(s->clusters, ACRSM_PICTURE_MAP, s->map_picture, err) ||
+        !acrsm_clusters_picture(s->clusters, ACRSM_PICTURE_CENTRES, s->centre_picture, err) ||
+        !draw_shadow_term(s, err))
+        return false;
+    add_layer(out, "cluster-map", s->map_picture, IRB_DEBUG_COLOUR);
+    add_layer(out, "cluster-centres", s->centre_picture, IRB_DEBUG_COLOUR);
+    add_layer(out, "importance", s->importance->map, IRB_DEBUG_SCALAR);
+    if (acrsm_has_shadows(r))
+        add_layer(out, "ism-atlas", s->lighting.ism->atlas, IRB_DEBUG_DISTANCE);
+    add_layer(out, "shadow-term", s->shadow_term, IRB_DEBUG_SCALAR);
+    add_layer(out, "split", s->lighting.interleave->split, IRB_DEBUG_RADIANCE);
+    return true;
+}
+
+static bool acrsm_render_frame(void *user, const struct irb_frame_inputs *in,
+                               struct irb_frame_output *out, struct irb_error *err)
+{
+    struct acrsm_state *s = user;
+    const struct acrsm_params *p = in->params;
+    struct acrsm_resolved r;
+    *out = (struct irb_frame_output){.irradiance = s->irradiance};
+    acrsm_params_resolve(p, in->rsm->resolution, irb_scene_diagonal(in->scene->scene), s->seed, &r);
+    return prepare_clustering(s, in->rsm->resolution, err) &&
+           acrsm_lighting_prepare(&s->lighting, in->scene, &r, s->width, s->height, p->interleave_n,
+                                  p->interleave_m, err) &&
+           cluster(s, in, &r, err) && light(s, in, &r, err) && report(s, in, &r, out, err) &&
+           (!in->debug || debug(s, &r, out, err));
+}
+
+const struct irb_method irb_method_acrsm = {
+    .abi = IRB_METHOD_ABI,
+    .name = "acrsm",
+    .title = "Adaptively-clustered reflective shadow maps",
+    .citation = "F. Weinzierl-Heigl, Adaptively-Clustered Reflective Shadow Maps, master's thesis",
+    .path_classes = "LDDE",
+    .claims_visibility = true,
+    .needs = IRB_NEEDS_HISTORY,
+    .params_size = sizeof(struct acrsm_params),
+    .params = acrsm_options,
+    .stages = stages,
+    .create = acrsm_create,
+    .resize = acrsm_resize,
+    .begin_sequence = acrsm_begin_sequence,
+    .render_frame = acrsm_render_frame,
+    .destroy = acrsm_destroy,
+};
