@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Imperfect shadow maps: one-bounce light from virtual point lights, each with a coarse shadow map
+ * splatted from points of the scene; interleaved sampling with a geometry-aware filter.
+ *
+ * Does not: adapt the points to the view (Ritschel et al. 2011: every map has points of the same
+ * density), nor bounce light twice.
+ */
+#include "methods/method.h"
+#include "methods/ism/debug.h"
+#include "methods/ism/objects.h"
+
+#include "core/sampling/sobol.h"
+
+#include <stdlib.h>
+
+extern const struct irb_method irb_method_ism;
+
+enum {
+    STAGE_SAMPLE,
+    STAGE_POINTS,
+    STAGE_SPLAT,
+    STAGE_PULL_PUSH,
+    STAGE_RASTER,
+    STAGE_SPLIT,
+    STAGE_LIGHT,
+    STAGE_MERGE,
+    STAGE_FILTER
+};
+static const char *const stages[] = {"sample", "points", "splat", "pull-push", "raster",
+                                     "split",  "light",  "merge", "filter",    NULL};
+
+struct ism_state {
+    struct ism_objects *objects;
+    struct ism_debug *debug; /* made when layers are first asked for */
+};
+
+static void ism_destroy(void *user)
+{
+    struct ism_state *state = user;
+    if (!state)
+        return;
+    ism_objects_destroy(state->objects);
+    ism_debug_destroy(state->debug);
+    free(state);
+}
+
+static void *ism_create(struct irb_gl *gl, const struct irb_scene_gl *scene, int width, int height,
+                        const void *settings, struct irb_error *err)
+{
+    (void)scene;
+    (void)settings;
+    struct ism_state *state = calloc(1, sizeof *state);
+    if (!state) {
+        irb_fail(err, IRB_E_MEMORY, "ism: out of memory");
+        return NULL;
+    }
+    if ((state->objects = ism_objects_create(gl, width, height, err)))
+        return state;
+    ism_destroy(state);
+    return NULL;
+}
+
+static bool ism_resize(void *user, int width, int height, struct irb_error *err)
+{
+    struct ism_state *state = user;
+    ism_debug_destroy(state->debug);
+    state->debug = NULL;
+    return ism_objects_resize(state->objects, width, height, err);
+}
+
+static bool ism_begin_sequence(void *user, const void *settings, uint64_t seed,
+                               struct irb_error *err)
+{
+    (void)user;
+    (void)settings;
+    (void)seed;
+    (void)err;
+    return true; /* no history */
+}
+
+/* The Halton sequence in stretches of `count` points: seed s takes the s-th in every frame, or,
+ * with the sequence `random`, one that it and the frame's number choose. 2^30 points are exact in
+ * the radical inverses. */
+static unsigned first_point(const struct ism_params *p, const struct irb_frame_inputs *in,
+                            int count)
+{
+    const uint32_t stretches = (1u << 30) / (uint32_t)count;
+    uint64_t stretch = in->seed;
+    if (p->sequence == ISM_RANDOM)
+        stretch = irb_hash_u32(irb_hash_u32((uint32_t)in->seed, (uint32_t)(in->seed >> 32)),
+                               (uint32_t)in->frame);
+    return (uint32_t)(stretch % stretches) * (uint32_t)count;
+}
+
+static bool sample(struct ism_objects *o, const struct irb_frame_inputs *in, struct irb_error *err)
+{
+    const struct ism_params *p = in->params;
+    const unsigned first = first_point(p, in, p->vpls);
+    o->lights->tiles = o->interleave->n * o->interleave->m;
+    if (p->importance == ISM_FLUX)
+        return irb_vpl_set_sample(o->lights, in->rsm, p->vpls, first, err);
+    const struct irb_importance_settings settings = {
+        .diffuse_weight = 1,
+        .view_weight = p->view_weight,
+        .view_samples = p->view_samples,
+        .norm = IRB_IMPORTANCE_NORM_MAX,
+        .first = first_point(p, in, p->view_samples),
+    };
+    return irb_importance_compute(o->importance, in->rsm, in->light, in->gbuffer, &settings, err) &&
+           irb_pyramid_build(o->pyramid, o->importance->map, err) &&
+           irb_vpl_set_sample_map(o->lights, in->rsm, o->pyramid, p->vpls, first, err);
+}
+
+static struct irb_ism_settings map_settings(const struct ism_params *p)
+{
+    const int halvings = 5 + p->map_size; /* of 32, ... */
+    return (struct irb_ism_settings){
+        .splatter = p->points == ISM_DYNAMIC          ? IRB_ISM_TESSELLATION
+                    : p->splatter == ISM_SPLAT_RASTER ? IRB_ISM_RASTER
+                                                      : IRB_ISM_ATOMIC,
+        .splat_factor = p->splat_factor,
+        .splat_scale = p->splat_scale,
+        .splat_size = p->splat_size,
+        .splat_most = p->splat_most,
+        .near = p->splat_near,
+        .pull_push = p->pull_push < halvings ? p->pull_push : halvings,
+        .pull = p->pull,
+        .f_min = p->f_min,
+        .f_max = p->f_max,
+        .smoothstep = p->smoothstep == ISM_SMOOTHSTEP_5 ? 5 : 3,
+    };
+}
+
+struct coverage {
+    double splatted, filled; /* share of the maps' texels, before and after pull-push */
+};
+
+/* The coverage is measured outside the stages: it is no part of the method's cost. */
+static bool build_maps(struct ism_objects *o, const struct irb_frame_inputs *in,
+                       struct coverage *coverage, struct irb_error *err)
+{
+    const struct irb_ism_settings settings = map_settings(in->params);
+    const struct irb_virtual_lights lights = irb_vpl_set_view(o->lights);
+    irb_timer_begin(in->timer, STAGE_SPLAT);
+    bool ok = irb_ism_splat(o->maps, in->scene, o->points, &lights, &settings, err);
+    irb_timer_end(in->timer);
+    ok = ok && irb_ism_coverage(o->maps, &coverage->splatted, err);
+    irb_timer_begin(in->timer, STAGE_PULL_PUSH);
+    ok = ok && irb_ism_pull_push(o->maps, &settings, err);
+    irb_timer_end(in->timer);
+    return ok && irb_ism_coverage(o->maps, &coverage->filled, err);
+}
+
+/* Of rasterised maps, whose texels hold the distance of their own ray: what rounding leaves.
+ * Source: ours, by tests/integration/bench_ism_visibility.c. */
+static const float raster_bias = 0.001f, raster_offset = 0.0005f, raster_near = 0.001f;
+
+/* Lengths in metres; the bounds are those at rest, the same in all frames. */
+static struct irb_shade_settings shade_settings(const struct ism_params *p, float diagonal)
+{
+    const bool raster = p->visibility == ISM_EXACT_RASTER;
+    return (struct irb_shade_settings){
+        .visibility = raster                            ? IRB_SHADE_RASTER
+                      : p->visibility == ISM_UNOCCLUDED ? IRB_SHADE_NONE
+                                                        : IRB_SHADE_BINARY,
+        .bias = raster ? raster_bias : p->bias,
+        .slope = raster ? 0 : p->slope,
+        .offset = (raster ? raster_offset : p->offset) * diagonal,
+        .taps = 1,
+        .blocker_taps = 1,
+        .bound = diagonal > 0 ? p->clamp / (diagonal * diagonal) : 0,
+    };
+}
+
+static bool light_raster(struct ism_objects *o, const struct irb_frame_inputs *in,
+                         const struct irb_virtual_lights *lights,
+                         const struct irb_shade_settings *settings, struct irb_error *err)
+{
+    const float near = raster_near * irb_scene_diagonal(in->scene->scene);
+    const int capacity = o->raster->capacity;
+    bool ok = true;
+    /* no lights at all still take one batch, which writes zeros */
+    for (int first = 0; ok && (first == 0 || first < lights->count); first += capacity) {
+        const int rest = lights->count - first;
+        const struct irb_shade_batch batch = {.first = first,
+                                              .count = rest < capacity ? rest : capacity,
+                                              .accumulate = first > 0,
+                                              .raster = o->raster};
+        irb_timer_begin(in->timer, STAGE_RASTER);
+        ok = irb_raster_maps_render(o->raster, in->scene, lights, first, batch.count, near, err);
+        irb_timer_end(in->timer);
+        irb_timer_begin(in->timer, STAGE_LIGHT);
+        ok =
+            ok && irb_shade_run_batch(o->shade, o->interleave, lights, NULL, settings, &batch, err);
+        irb_timer_end(in->timer);
+    }
+    return ok;
+}
+
+static bool light(struct ism_objects *o, const struct irb_frame_inputs *in, struct irb_error *err)
+{
+    const struct ism_params *p = in->params;
+    const struct irb_virtual_lights lights = irb_vpl_set_view(o->lights);
+    const struct irb_shade_settings settings =
+        shade_settings(p, irb_scene_diagonal(in->scene->scene));
+    if (p->visibility == ISM_EXACT_RASTER)
+        return light_raster(o, in, &lights, &settings, err);
+    irb_timer_begin(in->timer, STAGE_LIGHT);
+    bool ok = irb_shade_run(o->shade, o->interleave, &lights,
+                            p->visibility == ISM_IMPERFECT ? o->maps : NULL, &settings, err);
+    irb_timer_end(in->timer);
+    return ok;
+}
+
+/* Split, light, merge, filter. */
+static bool light_tiles(struct ism_objects *o, const struct irb_frame_inputs *in,
+                        struct irb_error *err)
+{
+    const struct ism_params *p = in->params;
+    const float depth = p->filter_depth * irb_scene_diagonal(in->scene->scene);
+    irb_timer_begin(in->timer, STAGE_SPLIT);
+    bool ok = irb_interleave_split(o->interleave, in->gbuffer, err);
+    irb_timer_end(in->timer);
+    ok = ok && light(o, in, err);
+    irb_timer_begin(in->timer, STAGE_MERGE);
+    ok = ok && irb_interleave_merge(o->interleave, err);
+    irb_timer_end(in->timer);
+    irb_timer_begin(in->timer, STAGE_FILTER);
+    ok = ok && irb_interleave_filter(o->interleave, in->gbuffer, depth, p->filter_cosine,
+                                     o->irradiance, err);
+    irb_timer_end(in->timer);
+    return ok;
+}
+
+static void add_statistic(struct irb_frame_output *out, const char *name, double value)
+{
+    out->statistics[out->statistic_count].name = name;
+    out->statistics[out->statistic_count++].value = value;
+}
+
+/* Outside the stages: the report is no part of the method's cost. */
+static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
+                   const struct coverage *coverage, struct irb_frame_output *out,
+                   struct irb_error *err)
+{
+    const struct ism_params *p = in->params;
+    struct ism_objects *o = state->objects;
+    const bool maps = p->visibility == ISM_IMPERFECT;
+    if (p->clamp > 0 && !irb_shade_lost(o->shade, o->interleave, &out->lost_energy, err))
+        return false;
+    add_statistic(out, "vpls", o->lights->count);
+    if (maps && o->points) {
+        add_statistic(out, "points", (double)o->points->count);
+        add_statistic(out, "splats", (double)o->points->count * (double)p->splat_factor);
+    }
+    if (maps) {
+        add_statistic(out, "coverage-splatted", coverage->splatted);
+        add_statistic(out, "coverage", coverage->filled);
+    }
+    if (!in->debug)
+        return true;
+    if (!state->debug && !(state->debug = ism_debug_create(o->gl, o->width, o->height, err)))
+        return false;
+    return ism_debug_layers(state->debug, o, maps, out, err);
+}
+
+/* Area points are drawn once for a sequence, before any stage, or anew in every frame, in a stage
+ * of theirs. */
+static bool prepare_points(struct ism_objects *o, const struct irb_frame_inputs *in,
+                           struct irb_error *err)
+{
+    const struct ism_params *p = in->params;
+    if (!p->redraw_points || p->points != ISM_AREA)
+        return ism_objects_prepare_points(o, p, in->scene, in->seed, err);
+    const uint64_t seed = in->seed ^ (uint64_t)(uint32_t)in->frame << 32;
+    irb_timer_begin(in->timer, STAGE_POINTS);
+    bool ok = ism_objects_prepare_points(o, p, in->scene, seed, err);
+    irb_timer_end(in->timer);
+    return ok;
+}
+
+static bool ism_render_frame(void *user, const struct irb_frame_inputs *in,
+                             struct irb_frame_output *out, struct irb_error *err)
+{
+    struct ism_state *state = user;
+    struct ism_objects *o = state->objects;
+    const struct ism_params *p = in->params;
+    struct coverage coverage = {0};
+
+    *out = (struct irb_frame_output){.irradiance = o->irradiance};
+    if (!ism_objects_prepare(o, p, in->rsm->resolution, err) || !prepare_points(o, in, err))
+        return false;
+    irb_timer_begin(in->timer, STAGE_SAMPLE);
+    bool ok = sample(o, in, err);
+    irb_timer_end(in->timer);
+    if (p->visibility == ISM_IMPERFECT)
+        ok = ok && build_maps(o, in, &coverage, err);
+    return ok && light_tiles(o, in, err) && report(state, in, &coverage, out, err);
+}
+
+const struct irb_method irb_method_ism = {
+    .abi = IRB_METHOD_ABI,
+    .name = "ism",
+    .title = "Imperfect shadow maps",
+    .citation = "T. Ritschel, T. Grosch, M. H. Kim, H.-P. Seidel, C. Dachsbacher and J. Kautz, "
+                "Imperfect Shadow Maps for Efficient Computation of Indirect Illumination, "
+                "SIGGRAPH Asia 2008",
+    .path_classes = "LDDE",
+    .claims_visibility = true,
+    .needs = IRB_NEEDS_NOTHING,
+    .params_size = sizeof(struct ism_params),
+    .params = ism_options,
+    .stages = stages,
+    .create = ism_create,
+    .resize = ism_resize,
+    .begin_sequence = ism_begin_sequence,
+    .render_frame = ism_render_frame,
+    .destroy = ism_destroy,
+};
