@@ -53,8 +53,8 @@ const struct irb_option ism_options[] = {
                      "thesis eqs 5.3-5.4, algorithm 5.2"),
     IRB_OPTION_FLOAT(struct ism_params, f_max, 32, 1, 64, "",
                      "tessellation, dynamic: factor of the scene's longest edge and largest "
-                     "triangle",
-                     "thesis eqs 5.3-5.4, figure 6.2"),
+                     "triangle; with 512 maps the thesis has f[16,64]",
+                     "thesis eqs 5.3-5.4, table 6.1"),
     IRB_OPTION_ENUM(struct ism_params, smoothstep, ISM_SMOOTHSTEP_3, smoothsteps,
                     "tessellation, dynamic: order of the polynomial between the two factors",
                     "thesis 5.2"),
@@ -96,8 +96,8 @@ const struct irb_option ism_options[] = {
         "nearer than d (1 - bias - slope a tan theta) - offset; a: angle of a texel, "
         "theta: between normal and light",
         "ours"),
-    IRB_OPTION_FLOAT(struct ism_params, slope, 0.7, 0, 64, "texels", "see bias", "ours"),
-    IRB_OPTION_FLOAT(struct ism_params, offset, 0.005, 0, 1, "",
+    IRB_OPTION_FLOAT(struct ism_params, slope, 0, 0, 64, "texels", "see bias", "ours"),
+    IRB_OPTION_FLOAT(struct ism_params, offset, 0.01, 0, 1, "",
                      "see bias; as a share of the scene's diagonal", "ours"),
     IRB_OPTION_INT(struct ism_params, interleave_n, 3, 1, IRB_INTERLEAVE_MOST, "",
                    "tiles across: each n-th column of pixels is lit by a part of the lights",

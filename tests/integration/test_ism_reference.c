@@ -148,8 +148,7 @@ static void light_errors(struct lighting *l, int light, const struct irb_image *
     const struct irb_virtual_lights lights = irb_vpl_set_view(l->set);
     const struct irb_shade_settings settings = {.visibility = IRB_SHADE_BINARY,
                                                 .bias = 0.05f,
-                                                .slope = 0.7f,
-                                                .offset = 0.005f,
+                                                .offset = 0.01f,
                                                 .taps = 1,
                                                 .blocker_taps = 1};
     const struct irb_shade_batch batch = {.first = light, .count = 1};
