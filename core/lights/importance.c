@@ -144,6 +144,8 @@ static void run_final(const struct irb_importance *importance, const struct irb_
     irb_program_int(program, "sample_count", samples);
     irb_program_float(program, "view_weight", settings->view_weight);
     irb_program_int(program, "normalise", settings->norm == IRB_IMPORTANCE_NORM_MAX);
+    irb_program_int(program, "view_form", settings->view_form);
+    irb_program_float(program, "view_nearest", settings->view_nearest);
     dispatch_texels(importance);
 }
 

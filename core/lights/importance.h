@@ -7,8 +7,14 @@
  *     f_d   = max_rgb(k_d l falloff), f_s = max_rgb(k_s l falloff) alpha   (eqs 5.1, 5.2)
  *     rho_v = mean over M visible points of max(0, n_i . l_i)              (eq. 4.2, clamped)
  *
+ * or, for rho_v, IRB_IMPORTANCE_GEOMETRY: the mean of the geometry terms between texel and visible
+ * point (Prutkin et al. 2012, section 4), bounded where they are nearer than b:
+ *
+ *     rho_v = mean of max(0, n_i . l_i) max(0, -n . l_i) b^2/max(r_i^2, b^2)   in [0,1]
+ *
  * l is the light's intensity (W/sr) or irradiance (W/m2), l_i the unit direction from the visible
- * point i to the texel, n_i its shading normal. Spot and directional lights, either layout.
+ * point i to the texel, n_i its shading normal, n the texel's, r_i their distance (m). Spot and
+ * directional lights, either layout.
  *
  * rho_f carries the light's colour, a falloff above 1 and the exponent alpha, while the thesis
  * calls it normalised and compares rho with absolute thresholds: with IRB_IMPORTANCE_NORM_MAX it is
@@ -23,6 +29,7 @@
 
 enum irb_importance_norm { IRB_IMPORTANCE_NORM_MAX, IRB_IMPORTANCE_NORM_NONE };
 extern const char *const irb_importance_norm_names[]; /* "max", "none", NULL */
+enum irb_importance_view { IRB_IMPORTANCE_LAMBERT, IRB_IMPORTANCE_GEOMETRY };
 
 enum { IRB_IMPORTANCE_MOST_VIEW_SAMPLES = 1024 };
 
@@ -32,6 +39,9 @@ struct irb_importance_settings {
     int view_samples;     /* M, 1..IRB_IMPORTANCE_MOST_VIEW_SAMPLES; ignored where w_v is 0 */
     int norm;             /* enum irb_importance_norm */
     unsigned first;       /* index of the first Halton point of the view samples */
+    int view_form;        /* enum irb_importance_view */
+    float view_nearest;   /* b, m, above 0; GEOMETRY only: without it the few texels next to a
+                             visible point would outweigh all others by 1/r^2 */
 };
 
 struct irb_importance {

@@ -109,9 +109,11 @@ static double expected_brdf(const struct fixture_frame *f, int x, int y, const f
                           materials[m].exponent);
 }
 
-/* Mean of max(0, n.l) over the Halton points that fall on geometry. */
+/* Mean of max(0, n.l), or of the bounded geometry term, over the Halton points that fall on
+ * geometry. */
 static double expected_view(const struct irb_image *position, const struct irb_image *normal,
-                            const float texel[3], const struct irb_importance_settings *s)
+                            const float texel[3], const float texel_normal[3],
+                            const struct irb_importance_settings *s)
 {
     double sum = 0, valid = 0;
     for (int i = 0; i < s->view_samples; i++) {
@@ -123,7 +125,14 @@ static double expected_view(const struct irb_image *position, const struct irb_i
             continue;
         double d[3] = {(double)texel[0] - p[0], (double)texel[1] - p[1], (double)texel[2] - p[2]};
         double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        sum += fmax(0, (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]) / r);
+        double cosine = fmax(0, (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]) / r), b = 1;
+        if (s->view_form == IRB_IMPORTANCE_GEOMETRY) {
+            b = fmin(1, (double)s->view_nearest / r);
+            b *= b * fmax(0, -(texel_normal[0] * d[0] + texel_normal[1] * d[1] +
+                               texel_normal[2] * d[2]) /
+                                 r);
+        }
+        sum += cosine * b;
         valid++;
     }
     return valid > 0 ? sum / valid : 0;
@@ -133,6 +142,7 @@ static void check_map(const struct fixture_frame *f, const struct irb_importance
 {
     struct irb_image found = compute(f, s), flux = fixture_read(f->rsm->flux, 4);
     struct irb_image texels = fixture_read(f->rsm->position, 4);
+    struct irb_image normals = fixture_read(f->rsm->normal, 4);
     struct irb_image position = fixture_read(f->gbuffer->position, 4);
     struct irb_image normal = fixture_read(f->gbuffer->normal, 4);
     double most = 0, largest = 0;
@@ -149,7 +159,8 @@ static void check_map(const struct fixture_frame *f, const struct irb_importance
                     rho = most > 0 ? rho / most : 0;
                 if (lit && s->view_weight > 0)
                     rho = (1 - (double)s->view_weight) * rho +
-                          (double)s->view_weight * expected_view(&position, &normal, p, s);
+                          (double)s->view_weight *
+                              expected_view(&position, &normal, p, irb_image_at(&normals, x, y), s);
                 REQUIRE_NEAR(*irb_image_at(&found, x, y), rho, 2e-5 * rho + 1e-7);
                 largest = fmax(largest, rho);
             }
@@ -157,6 +168,7 @@ static void check_map(const struct fixture_frame *f, const struct irb_importance
     irb_image_destroy(&found);
     irb_image_destroy(&flux);
     irb_image_destroy(&texels);
+    irb_image_destroy(&normals);
     irb_image_destroy(&position);
     irb_image_destroy(&normal);
 }
@@ -165,9 +177,14 @@ static void test_equations(void **state)
 {
     (void)state;
     static const struct irb_importance_settings settings[] = {
-        {1, 0, 0, IRB_IMPORTANCE_NORM_MAX, 0},     {0.3f, 0, 0, IRB_IMPORTANCE_NORM_MAX, 0},
-        {0.9f, 0, 0, IRB_IMPORTANCE_NORM_NONE, 0}, {0.5f, 0.4f, 37, IRB_IMPORTANCE_NORM_MAX, 5},
-        {1, 1, 3, IRB_IMPORTANCE_NORM_MAX, 0},     {1, 0.5f, 1024, IRB_IMPORTANCE_NORM_NONE, 0}};
+        {1, 0, 0, IRB_IMPORTANCE_NORM_MAX, 0},
+        {0.3f, 0, 0, IRB_IMPORTANCE_NORM_MAX, 0},
+        {0.9f, 0, 0, IRB_IMPORTANCE_NORM_NONE, 0},
+        {0.5f, 0.4f, 37, IRB_IMPORTANCE_NORM_MAX, 5},
+        {1, 1, 3, IRB_IMPORTANCE_NORM_MAX, 0},
+        {1, 0.5f, 1024, IRB_IMPORTANCE_NORM_NONE, 0},
+        {1, 1, 256, IRB_IMPORTANCE_NORM_MAX, 0, IRB_IMPORTANCE_GEOMETRY, 1},
+        {1, 0.5f, 99, IRB_IMPORTANCE_NORM_MAX, 7, IRB_IMPORTANCE_GEOMETRY, 0.3f}};
     for (int kind = 0; kind < 4; kind++) {
         struct fixture_frame f;
         make_frame(&f, kind, IRB_LAYOUT_FULL);
