@@ -13,12 +13,14 @@ enum { VISIBILITIES = IRB_SHADE_RASTER + 1, KINDS = VISIBILITIES + 1 };
 /* Side of the square of pixels that an invocation shades on software rasterisers: the more, the
  * less a light's loading costs; PCSS has work enough. */
 static const int software_tile[VISIBILITIES] = {4, 4, 1, 2};
+enum { POLYGON_TILE = 2 }; /* at most: polygons have more to keep for each pixel */
 
 struct irb_shade {
     struct irb_gl *gl;
-    struct irb_program *programs[KINDS][2][2]; /* kind, clamped, point; when first asked for */
-    struct irb_buffer *taps;                   /* blocker search, filter: vec4 each */
-    int taps_made[2];                          /* how many of each it holds */
+    struct irb_program *programs[KINDS][2][2][3]; /* kind, clamped, point, corners; when first
+                                                     asked for */
+    struct irb_buffer *taps;                      /* blocker search, filter: vec4 each */
+    int taps_made[2];                             /* how many of each it holds */
     struct irb_program *sum;
     struct irb_texture *lost; /* R32F, of the split buffers' size; NULL until a bound is given */
     bool lost_is_valid;       /* for what was shaded last */
@@ -44,35 +46,47 @@ void irb_shade_destroy(struct irb_shade *shade)
 {
     if (!shade)
         return;
-    for (int i = 0; i < KINDS * 4; i++)
-        irb_program_destroy(shade->programs[i / 4][i / 2 % 2][i % 2]);
+    for (int i = 0; i < KINDS * 12; i++)
+        irb_program_destroy(shade->programs[i / 12][i / 6 % 2][i / 3 % 2][i % 3]);
     irb_program_destroy(shade->sum);
     irb_buffer_destroy(shade->taps);
     irb_texture_destroy(shade->lost);
     free(shade);
 }
 
-static int tile_of(const struct irb_shade *shade, int visibility)
+static int tile_of(const struct irb_shade *shade, int visibility, int corners)
 {
-    return shade->gl->software ? software_tile[visibility] : 1;
+    const int tile = software_tile[visibility];
+    if (!shade->gl->software)
+        return 1;
+    return corners && tile > POLYGON_TILE ? POLYGON_TILE : tile;
+}
+
+/* Lights in one uniform block, below GL's 64 KiB; their bytes are whole multiples of 256, which is
+ * the most that a driver may ask of an offset. */
+static int block_lights(int corners)
+{
+    return corners == 0 ? IRB_VPL_BLOCK : corners == 8 ? IRB_VPL_BLOCK / 2 : IRB_VPL_BLOCK / 4;
 }
 
 static const struct irb_program *program_of(struct irb_shade *shade,
                                             const struct irb_shade_settings *s,
-                                            const struct irb_raster_maps *raster,
+                                            const struct irb_raster_maps *raster, int corners,
                                             struct irb_error *err)
 {
     const int kind = s->visibility + (raster ? (int)raster->projection : 0);
-    struct irb_program **program = &shade->programs[kind][s->bound > 0][s->point_form_factor];
-    char tile[32], visibility[32], block[32], taps[32];
+    struct irb_program **program =
+        &shade->programs[kind][s->bound > 0][s->point_form_factor][corners / 8];
+    char tile[32], visibility[32], block[32], taps[32], polygon[32];
     if (*program)
         return *program;
-    snprintf(tile, sizeof tile, "TILE %d", tile_of(shade, s->visibility));
+    snprintf(tile, sizeof tile, "TILE %d", tile_of(shade, s->visibility, corners));
     snprintf(visibility, sizeof visibility, "VISIBILITY %d", s->visibility);
-    snprintf(block, sizeof block, "VPL_BLOCK %d", IRB_VPL_BLOCK);
+    snprintf(block, sizeof block, "VPL_BLOCK %d", block_lights(corners));
+    snprintf(polygon, sizeof polygon, "CORNERS %d", corners);
     snprintf(taps, sizeof taps, "TAPS_MOST %d", IRB_SHADOW_TAPS_MOST);
-    const char *defines[8] = {tile, visibility, block, taps};
-    int count = 4;
+    const char *defines[9] = {tile, visibility, block, taps, polygon};
+    int count = 5;
     if (raster)
         defines[count++] = irb_raster_define(raster->projection);
     if (s->bound > 0)
@@ -135,6 +149,8 @@ static bool check(const struct irb_virtual_lights *lights, const struct irb_ism 
                   const struct irb_shade_settings *s, const struct irb_shade_batch *batch,
                   struct irb_error *err)
 {
+    if (lights->corners != 0 && lights->corners != 8 && lights->corners != 16)
+        return irb_fail(err, IRB_E_INTERNAL, "shade: polygons of %d corners", lights->corners);
     if (s->visibility < 0 || s->visibility >= VISIBILITIES)
         return irb_fail(err, IRB_E_INTERNAL, "shade: no visibility %d", s->visibility);
     if (batch->first < 0 || batch->count < 0 || batch->first + batch->count > lights->count)
@@ -200,14 +216,15 @@ static void dispatch(const struct irb_shade *shade, const struct irb_program *pr
                      int block, const struct irb_shade_batch *batch, int side)
 {
     const struct irb_gl_api *api = &shade->gl->api;
-    const int64_t bytes = (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES;
-    const int base = block * IRB_VPL_BLOCK;
+    const int lights_a_block = block_lights(lights->corners);
+    const int64_t bytes = (int64_t)lights_a_block * (IRB_VPL_BYTES + 8 * lights->corners);
+    const int base = block * lights_a_block;
     const int begin = batch->first > base ? batch->first - base : 0;
     const int end = batch->first + batch->count - base;
 
     irb_program_int(program, "light_base", base);
     irb_program_int(program, "light_begin", begin);
-    irb_program_int(program, "light_end", end < IRB_VPL_BLOCK ? end : IRB_VPL_BLOCK);
+    irb_program_int(program, "light_end", end < lights_a_block ? end : lights_a_block);
     irb_program_int(program, "accumulate", batch->accumulate || begin + base > batch->first);
     api->BindBufferRange(GL_UNIFORM_BUFFER, LIGHTS_BINDING, lights->buffer->id, block * bytes,
                          bytes);
@@ -228,16 +245,16 @@ bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *il,
         return false;
     const struct irb_raster_maps *raster =
         settings->visibility == IRB_SHADE_RASTER ? batch->raster : NULL;
-    const struct irb_program *program = program_of(shade, settings, raster, err);
+    const struct irb_program *program = program_of(shade, settings, raster, lights->corners, err);
     if (!program)
         return false;
     irb_program_use(program);
     bind(shade, program, il, settings->bound > 0);
     bind_maps(program, ism, raster, batch->first);
     set_settings(program, settings);
-    const int side = GROUP * tile_of(shade, settings->visibility);
-    const int first = batch->count > 0 ? batch->first / IRB_VPL_BLOCK : 0;
-    const int last = (batch->first + batch->count - 1) / IRB_VPL_BLOCK;
+    const int side = GROUP * tile_of(shade, settings->visibility, lights->corners);
+    const int first = batch->count > 0 ? batch->first / block_lights(lights->corners) : 0;
+    const int last = (batch->first + batch->count - 1) / block_lights(lights->corners);
     /* no lights at all still take one dispatch, which writes zeros */
     for (int block = first; block == first || block <= last; block++)
         dispatch(shade, program, il, lights, block, batch, side);

@@ -4,6 +4,9 @@
  *
  *     E(x) = sum Phi F V,  F = cos_x cos_y / (pi r^2 + A)   (eq. 5.5)
  *
+ * or, of lights that are polygons, the exact form factor over A (Prutkin et al. 2012, section 5;
+ * shaders/lights/polygon_form_factor.glsl). A polygon's shadow is that of a disc of its area.
+ *
  * V is 1, or comes from the light's shadow map: of its centre (Ritschel et al. 2008), or of its
  * disc by percentage-closer soft shadows in paraboloid space (Fernando 2005; thesis 3.1.1), whose
  * geometry is in shaders/lights/pcss.glsl.

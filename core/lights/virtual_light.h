@@ -24,7 +24,10 @@ enum { IRB_VPL_BLOCK = 1024, IRB_VPL_BYTES = 48 };
  * IRB_VPL_BLOCK of them. */
 struct irb_virtual_lights {
     const struct irb_buffer *buffer;
-    int count; /* in use */
+    int count;   /* in use */
+    int corners; /* 0; or 8 or 16: the lights are convex polygons of so many corners, 3 + corners/2
+                    vec4 each (shaders/lights/polygon_light.glsl): E(x) = Phi/A F V, F the polygon's
+                    form factor. Not for shadow maps, which take lights without corners */
 };
 
 #endif

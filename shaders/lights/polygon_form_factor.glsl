@@ -13,7 +13,7 @@
  * The polygon is convex and its corners run counter-clockwise seen from its front. Receivers behind
  * it get 0. One in its plane is the caller's to leave out: there the value jumps.
  */
-const float PI = 3.14159265358979324;
+#include "lights/form_factor.glsl"
 
 struct polygon_sum {
     float sum;
@@ -25,12 +25,11 @@ polygon_sum polygon_begin()
     return polygon_sum(0.0, vec3(0.0), vec3(0.0));
 }
 
-/* theta/sin(theta). For acute angles a polynomial in the cosine (Chebyshev interpolation, relative
- * error 1e-7), smooth at 0, so that the terms of small and distant polygons cancel as they should;
- * for obtuse ones by theta -> pi - theta. */
-float angle_over_sine(float cosine, float sine2)
+/* theta/sin(theta) of an acute angle by its cosine: a polynomial (Chebyshev interpolation, relative
+ * error 1e-7), smooth at 0, so that the terms of small and distant polygons cancel as they
+ * should. */
+float acute_angle_over_sine(float c)
 {
-    float c = abs(cosine);
     float g = 0.0171853692;
     g = g * c - 0.0960763048;
     g = g * c + 0.250126529;
@@ -39,7 +38,12 @@ float angle_over_sine(float cosine, float sine2)
     g = g * c - 0.660758619;
     g = g * c + 0.784853813;
     g = g * c - 0.99998017;
-    g = g * c + 1.57079621;
+    return g * c + 1.57079621;
+}
+
+float angle_over_sine(float cosine, float sine2)
+{
+    float g = acute_angle_over_sine(abs(cosine));
     return cosine >= 0.0 ? g : PI * inversesqrt(max(sine2, 1e-14)) - g;
 }
 
@@ -69,6 +73,17 @@ void polygon_edge(inout polygon_sum s, vec3 n, vec3 a, vec3 b)
     if (!(height_b > 0.0))
         s.leaving = to;
     s.sum += contour_term(n, from, to, (end - begin) * e);
+}
+
+/* The term of an edge above the horizon whose ends are seen at an acute angle, in the polygon's own
+ * frame: n the receiver's normal there, height its distance from the plane, a and b the corners in
+ * the plane, seen from the foot of its perpendicular; inverse_a = 1/|(a, height)|. */
+float planar_term(vec3 n, float height, vec2 a, float inverse_a, vec2 b, float inverse_b)
+{
+    vec2 e = b - a;
+    float inverse = inverse_a * inverse_b;
+    float n_c = height * (n.x * e.y - n.y * e.x) + n.z * (a.x * e.y - a.y * e.x);
+    return n_c * inverse * acute_angle_over_sine((dot(a, b) + height * height) * inverse);
 }
 
 float polygon_end(polygon_sum s, vec3 n)

@@ -14,9 +14,9 @@ layout(local_size_x = GROUP, local_size_y = GROUP) in;
 
 #include "lights/form_factor.glsl"
 #include "lights/pcss.glsl"
-#include "lights/virtual_light.glsl"
+#include "lights/polygon_light.glsl"
 
-layout(std140, binding = 0) uniform Block { vec4 lights[VPL_VECTORS * VPL_BLOCK]; };
+layout(std140, binding = 0) uniform Block { vec4 lights[LIGHT_VECTORS * VPL_BLOCK]; };
 uniform sampler2D split_position, split_normal, split_geometric;
 layout(rgba32f, binding = 0) uniform image2D split_image; /* W/m2 */
 #ifdef CLAMPED
@@ -44,15 +44,16 @@ struct virtual_light {
     mat3 frame;
     vec2 centre; /* of its map in the atlas, texels */
     int map;
+    int first; /* of its vectors in the block */
 };
 
 virtual_light load_light(int i)
 {
     virtual_light l;
-    vec4 position = lights[VPL_VECTORS * i];
+    vec4 position = lights[LIGHT_VECTORS * i];
     l.position = position.xyz;
-    l.flux = lights[VPL_VECTORS * i + 2].xyz;
-    l.frame = light_frame(lights[VPL_VECTORS * i + 1].xyz);
+    l.flux = lights[LIGHT_VECTORS * i + 2].xyz;
+    l.frame = light_frame(lights[LIGHT_VECTORS * i + 1].xyz);
 #ifdef POINT
     l.area = 0.0;
 #else
@@ -60,11 +61,16 @@ virtual_light load_light(int i)
 #endif
     l.radius = sqrt(position.w / PI);
     l.map = light_base + i - map_base;
+    l.first = LIGHT_VECTORS * i;
 #if VISIBILITY == 1 || VISIBILITY == 2
     l.centre = vec2(ism_origin(l.map)) + 0.5 * float(ism_map_size);
 #endif
     return l;
 }
+
+#if CORNERS > 0
+#include "lights/shade_polygon.glsl"
+#endif
 
 /* q: receiver in the light's frame, m; n: its triangle's normal, world. */
 float visibility(virtual_light l, vec3 q, vec3 n, bool needed)
@@ -122,10 +128,18 @@ void main()
     for (int i = first_light(t); i < light_end; i += tile_count) {
         virtual_light l = load_light(i);
         float mean_flux = dot(l.flux, vec3(1.0 / 3.0));
+#if CORNERS > 0
+        float factors[PIXELS];
+        polygon_factors(l, x, n, factors);
+#endif
         for (int j = 0; j < PIXELS; j++) {
             vec3 d = x[j] - l.position, q = d * l.frame;
             float r_cos_x = max(-dot(n[j], d), 0.0);
+#if CORNERS > 0 && !defined POINT
+            float f = factors[j];
+#else
             float f = disc_form_factor(r_cos_x, max(q.z, 0.0), dot(d, d), l.area);
+#endif
             float v = visibility(l, q, triangle[j], f * mean_flux > 0.0);
 #ifdef CLAMPED
             taken[j] += mean_flux * v * max(f - bound / PI, 0.0);
