@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+#include "methods/rsm_clustering/lighting.h"
+
+void rsc_lighting_destroy(struct rsc_lighting *l)
+{
+    irb_points_destroy(l->points);
+    irb_ism_destroy(l->ism);
+    irb_interleave_destroy(l->interleave);
+    irb_shade_destroy(l->shade);
+    *l = (struct rsc_lighting){.gl = l->gl};
+}
+
+static bool prepare_interleave(struct rsc_lighting *l, int width, int height, int side,
+                               struct irb_error *err)
+{
+    const struct irb_interleave *have = l->interleave;
+    const int columns = side < width ? side : width, rows = side < height ? side : height;
+    if (have && have->width == width && have->height == height && have->n == columns &&
+        have->m == rows)
+        return true;
+    irb_interleave_destroy(l->interleave);
+    l->interleave = irb_interleave_create(l->gl, width, height, side, side, err);
+    return l->interleave != NULL;
+}
+
+static bool prepare_points(struct rsc_lighting *l, const struct irb_scene_gl *scene,
+                           const struct irb_points_desc *wanted, struct irb_error *err)
+{
+    const struct irb_points_desc *have = &l->point_settings;
+    if (l->points && have->count == wanted->count && have->seed == wanted->seed)
+        return true;
+    irb_points_destroy(l->points);
+    l->point_settings = *wanted;
+    l->points = irb_points_create(l->gl, scene, wanted, err);
+    return l->points != NULL;
+}
+
+bool rsc_lighting_prepare(struct rsc_lighting *l, const struct irb_scene_gl *scene,
+                          const struct rsc_resolved *settings, int width, int height,
+                          struct irb_error *err)
+{
+    return prepare_interleave(l, width, height, settings->interleave, err) &&
+           (l->shade || (l->shade = irb_shade_create(l->gl, err))) &&
+           (!rsc_has_shadows(settings) ||
+            ((l->ism || (l->ism = irb_ism_create(l->gl, RSC_MAP_SIZE, IRB_VPL_BLOCK, err))) &&
+             prepare_points(l, scene, &settings->points, err)));
+}

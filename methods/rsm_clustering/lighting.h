@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What lights the image with the area lights: the split G-buffer, and where shadows are asked for
+ * points of the scene and shadow maps. Everything is made when a frame first needs it, and anew
+ * when a parameter asks for another one.
+ */
+#ifndef IRB_METHODS_RSM_CLUSTERING_LIGHTING_H
+#define IRB_METHODS_RSM_CLUSTERING_LIGHTING_H
+
+#include "methods/rsm_clustering/params.h"
+
+enum { RSC_MAP_SIZE = 128 }; /* of a shadow map, texels; Ritschel et al. 2008 */
+
+struct rsc_lighting {
+    struct irb_gl *gl;         /* borrowed */
+    struct irb_points *points; /* of point_settings; NULL without shadows */
+    struct irb_points_desc point_settings;
+    struct irb_ism *ism; /* NULL without shadows */
+    struct irb_interleave *interleave;
+    struct irb_shade *shade;
+};
+
+void rsc_lighting_destroy(struct rsc_lighting *lighting); /* what it holds */
+
+/* Before the stages of a frame: makes what is missing for images of width x height. */
+bool rsc_lighting_prepare(struct rsc_lighting *lighting, const struct irb_scene_gl *scene,
+                          const struct rsc_resolved *settings, int width, int height,
+                          struct irb_error *err);
+
+#endif

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: MIT */
+#include "methods/rsm_clustering/params.h"
+
+/* Weight that the view-independent importance keeps at least: without effect on where seeds fall,
+ * but for a view that no lit texel faces, where they fall by it alone. Source: ours. */
+static const float least_brdf_weight = 1e-6f;
+
+enum { RESEED_SAME, RESEED_NEXT };
+static const char *const reseeds[] = {"same", "next", NULL};
+enum { UNIT_METRES, UNIT_BBOX };
+static const char *const units[] = {"metres", "bbox", NULL};
+enum { ASSIGN_GRID, ASSIGN_BRUTE };
+static const char *const assignments[] = {"grid", "brute", NULL};
+enum { SHAPE_DISC, SHAPE_POLYGON };
+static const char *const shapes[] = {"disc", "polygon", NULL};
+static const char *const corner_counts[] = {"8", "16", NULL};
+/* In the order of enum irb_shade_visibility. */
+static const char *const visibilities[] = {"none", "binary", "pcss", NULL};
+
+#define P struct rsc_params
+const struct irb_option rsc_options[] = {
+    IRB_OPTION_INT(P, clusters, 1024, 1, RSC_MOST_CLUSTERS, "",
+                   "k: clusters, and area lights but for empty ones; at most 1024 with shadow maps",
+                   "Prutkin et al. 2012, table 1: 256, 1024"),
+    IRB_OPTION_FLOAT(
+        P, view_weight, 1, 0, 1, "",
+        "importance by which seeds are drawn: share of the geometry terms with visible "
+        "points (1: the paper's); the rest is the intensity that a texel reflects",
+        "Prutkin et al. 2012, section 4"),
+    IRB_OPTION_INT(P, view_samples, 256, 1, IRB_IMPORTANCE_MOST_VIEW_SAMPLES, "",
+                   "Halton-distributed pixels of the G-buffer that geometry terms are taken with",
+                   "Prutkin et al. 2012, section 4"),
+    IRB_OPTION_FLOAT(P, view_nearest, 0.05, 1e-6, 10, "",
+                     "distance, as a share of the scene's diagonal, below which a geometry term "
+                     "does not grow any more: bounds the spikes of 1/r^2",
+                     "ours"),
+    IRB_OPTION_ENUM(P, reseed, RESEED_SAME, reseeds,
+                    "an empty cluster's new seed: the same Halton point warped by the frame's "
+                    "importance, or a next one of the sequence",
+                    "Prutkin et al. 2012, algorithm 1: same; section 4: a new seed point"),
+    IRB_OPTION_FLOAT(
+        P, w_d, 1, 0, 1e6, "",
+        "weight of the squared distance. The paper sets w_d, w_n, w_phi to 1, 10, 0 in "
+        "the Cornell box, and to 1, 1, 10 elsewhere",
+        "Prutkin et al. 2012, eq. 1, section 6"),
+    IRB_OPTION_FLOAT(P, w_n, 1, 0, 1e6, "", "weight of the normals' difference 1 - n_p.n_c",
+                     "Prutkin et al. 2012, eq. 1, section 6"),
+    IRB_OPTION_FLOAT(P, w_phi, 10, 0, 1e6, "",
+                     "weight of the squared difference of the normalised colours",
+                     "Prutkin et al. 2012, eq. 1, section 6"),
+    IRB_OPTION_ENUM(P, metric_unit, UNIT_METRES, units,
+                    "unit of the distances in eq. 1: metres, or the diagonal of the scene at rest, "
+                    "by which the clustering does not depend on the scene's scale",
+                    "Prutkin et al. 2012: metres; bbox: ours"),
+    IRB_OPTION_ENUM(
+        P, assignment, ASSIGN_GRID, assignments,
+        "clusters that a texel chooses from: those in near cells of a sqrt(k) x sqrt(k) "
+        "grid over the RSM, or all",
+        "Prutkin et al. 2012, section 4"),
+    IRB_OPTION_INT(P, reach, 2, 0, 128, "cells",
+                   "r: grid cells from the texel's up to which clusters are looked for",
+                   "Prutkin et al. 2012, section 4: r = 2"),
+    IRB_OPTION_ENUM(
+        P, reduction, RSC_SORT, rsc_reduction_names,
+        "how a cluster finds its texels: all sorted by cluster (bitonic) and reordered; "
+        "in the window that the grid lets it have; in the whole map. Same sums",
+        "Prutkin et al. 2012, section 4: sort, against direct; window: ours"),
+    IRB_OPTION_ENUM(P, shape, SHAPE_DISC, shapes, "area lights: discs, or hulls of the clusters",
+                    "Prutkin et al. 2012, section 5"),
+    IRB_OPTION_ENUM(P, area, RSC_AREA_TEXELS, rsc_area_names,
+                    "a disc's area: what its texels see of surfaces; of the disc with the same "
+                    "second moment; of the disc that reaches its farthest texel",
+                    "ours: Prutkin et al. 2012 does not say"),
+    IRB_OPTION_ENUM(P, corners, 0, corner_counts,
+                    "corners of a polygon: its extreme texels in so many directions", "ours"),
+    IRB_OPTION_ENUM(
+        P, visibility, IRB_SHADE_NONE, visibilities,
+        "indirect shadows: none, or from imperfect shadow maps: of the lights' centres, "
+        "or of their discs by percentage-closer soft shadows",
+        "Prutkin et al. 2012: none; section 7 proposes it"),
+    IRB_OPTION_INT(P, points, 1000000, 1000, 16000000, "",
+                   "shadow maps: points on the scene's surfaces that they are splatted from",
+                   "Ritschel et al. 2008; value: ours"),
+    IRB_OPTION_FLOAT(P, splat_factor, 4, 0.01, 64, "",
+                     "shadow maps: maps that each point is splatted into",
+                     "thesis 5.3.2; value: ours"),
+    IRB_OPTION_INT(P, splat_most, 16, 1, 128, "texels", "shadow maps: largest side of a splat",
+                   "ours"),
+    IRB_OPTION_INT(P, pull_push, 2, 0, 5, "levels",
+                   "shadow maps: levels of pull-push that fill holes; 0 = off",
+                   "Ritschel et al. 2008; value: ours"),
+    IRB_OPTION_INT(P, taps, 16, 1, IRB_SHADOW_TAPS_MOST, "", "Poisson-disk taps of a soft shadow",
+                   "thesis 5.3.3"),
+    IRB_OPTION_INT(P, blocker_taps, 16, 1, IRB_SHADOW_TAPS_MOST, "",
+                   "taps of the search for blockers", "thesis 5.3.3; value: ours"),
+    IRB_OPTION_FLOAT(P, bias, 0.01, 0, 0.99, "",
+                     "share of the distance by which what shadows must be nearer", "ours"),
+    IRB_OPTION_FLOAT(P, slope, 2.5, 0, 16, "texels",
+                     "the same for the slope of the receiver over so many texels of a shadow map",
+                     "ours"),
+    IRB_OPTION_FLOAT(P, offset, 1e-3, 0, 1, "",
+                     "the same everywhere, as a share of the scene's diagonal", "ours"),
+    IRB_OPTION_INT(
+        P, interleave, 1, 1, IRB_INTERLEAVE_MOST, "",
+        "n: each pixel is lit by every n^2-th light, and n x n pixels are averaged where "
+        "they agree; 1 = all lights for every pixel",
+        "Prutkin et al. 2012: 1; thesis 5.1.4"),
+    IRB_OPTION_FLOAT(P, alpha, 0.02, 0, 10, "",
+                     "averaging: largest difference of two pixels' distances to the camera, as a "
+                     "share of the scene's diagonal",
+                     "thesis 5.3.3; value: ours"),
+    IRB_OPTION_FLOAT(P, beta, 0.9, -1, 1, "", "averaging: least cosine between two pixels' normals",
+                     "thesis 5.3.3; value: ours"),
+    IRB_OPTION_END,
+};
+#undef P
+
+/* Stretches of the Halton sequence, so that seeds share no points; 2^30 points are exact in the
+ * radical inverses. */
+static unsigned halton_stretch(uint64_t index, unsigned length)
+{
+    return (unsigned)((index * length) & ((1u << 30) - 1));
+}
+
+static struct rsc_settings clustering_of(const struct rsc_params *p, float diagonal, uint64_t seed,
+                                         unsigned frame)
+{
+    const float unit = p->metric_unit == UNIT_BBOX && diagonal > 0 ? diagonal : 1;
+    const uint64_t stretch = p->reseed == RESEED_NEXT ? (seed << 20) + frame : seed;
+    return (struct rsc_settings){
+        .clusters = p->clusters,
+        .weight_distance = p->w_d / unit / unit,
+        .weight_normal = p->w_n,
+        .weight_colour = p->w_phi,
+        .reach = p->assignment == ASSIGN_BRUTE ? -1 : p->reach,
+        .reduction = (enum rsc_reduction)p->reduction,
+        .first = halton_stretch(stretch, (unsigned)p->clusters),
+    };
+}
+
+static struct irb_shade_settings shade_of(const struct rsc_params *p, float diagonal)
+{
+    return (struct irb_shade_settings){
+        .visibility = p->visibility,
+        .bias = p->bias,
+        .slope = p->slope,
+        .offset = p->offset * diagonal,
+        .taps = p->taps,
+        .blocker_taps = p->blocker_taps,
+        .search_scale = 1,
+        .penumbra_scale = 1,
+    };
+}
+
+bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t seed, unsigned frame,
+                        struct rsc_resolved *out, struct irb_error *err)
+{
+    if (p->visibility != IRB_SHADE_NONE && p->clusters > IRB_VPL_BLOCK)
+        return irb_fail(
+            err, IRB_E_INPUT,
+            "rsm-clustering: there are shadow maps for %d clusters, found %d; use fewer "
+            "clusters or visibility=none",
+            IRB_VPL_BLOCK, p->clusters);
+    *out = (struct rsc_resolved){
+        .importance = {.diffuse_weight = 1,
+                       .view_weight = p->view_weight < 1 ? p->view_weight : 1 - least_brdf_weight,
+                       .view_samples = p->view_samples,
+                       .norm = IRB_IMPORTANCE_NORM_MAX,
+                       .first = halton_stretch(seed, (unsigned)p->view_samples),
+                       .view_form = IRB_IMPORTANCE_GEOMETRY,
+                       .view_nearest = p->view_nearest * (diagonal > 0 ? diagonal : 1)},
+        .clustering = clustering_of(p, diagonal, seed, frame),
+        .area = (enum rsc_area)p->area,
+        .corners = p->shape == SHAPE_POLYGON ? (p->corners ? 16 : 8) : 0,
+        .points = {.kind = IRB_POINTS_AREA, .count = p->points, .seed = seed},
+        .ism = {.splatter = IRB_ISM_ATOMIC,
+                .splat_factor = p->splat_factor,
+                .splat_scale = 1,
+                .splat_most = p->splat_most,
+                .near = 1e-3f,
+                .pull_push = p->pull_push,
+                .pull = IRB_ISM_MEDIAN},
+        .shade = shade_of(p, diagonal),
+        .interleave = p->interleave,
+        .depth = p->alpha * diagonal,
+        .cosine = p->beta,
+    };
+    return true;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Of each row of the cluster map: texels with flux, those of them without a cluster within reach,
+ * and the flux of both (W, mean of the channels), summed from left to right.
+ */
+layout(local_size_x = 64) in;
+#include "frame/rsm_fetch.glsl"
+#include "methods/rsm_clustering/cluster_map.glsl"
+
+uniform usampler2D cluster_map;
+layout(std430, binding = 6) writeonly buffer Rows { vec4 rows[]; };
+
+void main()
+{
+    int y = int(gl_GlobalInvocationID.x), side = rsm_resolution();
+    if (y >= side)
+        return;
+    vec4 sum = vec4(0.0);
+    for (int x = 0; x < side; x++) {
+        uint id = texelFetch(cluster_map, ivec2(x, y), 0).r;
+        vec3 flux = rsm_fetch_flux(ivec2(x, y));
+        float mean = (flux.r + flux.g + flux.b) / 3.0;
+        bool lost = id == LOST;
+        sum += vec4(id != UNLIT ? 1.0 : 0.0, lost ? 1.0 : 0.0, mean, lost ? mean : 0.0);
+    }
+    rows[y] = sum;
+}

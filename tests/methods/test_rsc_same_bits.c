@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rsm-clustering gives the same bits on OSMesa and EGL on llvmpipe, on one thread and two.
+ */
+#include "tests/support/compare.h"
+#include "methods/method.h"
+#include "tests/frame/fixture.h"
+
+extern const struct irb_method irb_method_rsm_clustering;
+static const struct irb_method *const method = &irb_method_rsm_clustering;
+
+enum { TRIALS = 3, FRAMES = 3, WIDTH = 31, HEIGHT = 23, RESOLUTION = 64 };
+
+static const char *const trials[TRIALS][6] = {
+    {"clusters", "200", "area", "moment"},
+    {"clusters", "100", "shape", "polygon", "reduction", "window"},
+    {"clusters", "60", "visibility", "pcss", "points", "20000"},
+};
+
+static struct irb_image run(struct irb_gl *gl, const struct fixture_frame *f,
+                            const char *const settings[6])
+{
+    struct irb_error err = {0};
+    struct irb_frame_output out;
+    void *params = calloc(1, method->params_size);
+    irb_options_default(method->params, params);
+    for (int i = 0; i < 6 && settings[i]; i += 2)
+        REQUIRE_OK(irb_option_set(method->params, params, settings[i], settings[i + 1], &err));
+    void *state = method->create(gl, f->scene_gl, WIDTH, HEIGHT, params, &err);
+    REQUIRE_OK(state);
+    REQUIRE_OK(method->begin_sequence(state, params, 3, &err));
+    const struct irb_frame_inputs inputs = {.scene = f->scene_gl,
+                                            .light = &f->light,
+                                            .camera = &f->camera,
+                                            .gbuffer = f->gbuffer,
+                                            .rsm = f->rsm,
+                                            .seed = 3,
+                                            .params = params,
+                                            .debug = true};
+    for (int i = 0; i < FRAMES; i++)
+        REQUIRE_OK(method->render_frame(state, &inputs, &out, &err));
+    struct irb_image image = fixture_read(out.irradiance, 4);
+    REQUIRE_CMP(fixture_sum(&image, 0), >, 0);
+    REQUIRE_NEAR(out.debug_count, 6, 0);
+    for (int i = 0; i < out.debug_count; i++) { /* pictures show something */
+        struct irb_image picture = fixture_read(out.debug[i].texture, 4);
+        int coloured = 0;
+        for (size_t p = 0; p < irb_image_pixels(&picture); p++)
+            coloured += picture.data[4 * p] != picture.data[4 * p + 1];
+        REQUIRE_CMP(coloured, >, 0.05 * (double)irb_image_pixels(&picture));
+        irb_image_destroy(&picture);
+    }
+    method->destroy(state);
+    free(params);
+    return image;
+}
+
+static void render(enum irb_backend backend, const char *threads, struct irb_image images[TRIALS])
+{
+    setenv("LP_NUM_THREADS", threads, 1); /* llvmpipe reads it for each context */
+    struct irb_gl *gl = fixture_gl(backend, NULL);
+    if (!gl->software) {
+        printf("skipped: %s is no software rasteriser\n", gl->renderer);
+        exit(TEST_SKIPPED);
+    }
+    struct fixture_frame f;
+    fixture_frame_create(&f, gl, fixture_scene("cornell-objects"), WIDTH, HEIGHT, RESOLUTION);
+    fixture_view(f.scene, &f.light, &f.camera);
+    fixture_frame_render(&f);
+    for (int i = 0; i < TRIALS; i++)
+        images[i] = run(gl, &f, trials[i]);
+    fixture_frame_destroy(&f);
+    assert_int_equal(gl->bytes, 0);
+    irb_gl_destroy(gl);
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    static const struct {
+        enum irb_backend backend;
+        const char *threads;
+    } others[] = {{IRB_BACKEND_OSMESA, "1"}, {IRB_BACKEND_EGL, "2"}};
+    struct irb_image expected[TRIALS], found[TRIALS];
+    render(IRB_BACKEND_OSMESA, "2", expected);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        render(others[i].backend, others[i].threads, found);
+        for (int k = 0; k < TRIALS; k++) {
+            if (memcmp(found[k].data, expected[k].data, irb_image_pixels(&found[k]) * 16))
+                fail_msg("trial %d differs", k);
+            irb_image_destroy(&found[k]);
+        }
+    }
+    for (int k = 0; k < TRIALS; k++)
+        irb_image_destroy(&expected[k]);
+}
+
+int main(void)
+{
+    irb_gl_destroy(fixture_gl(IRB_BACKEND_EGL, NULL)); /* skips where it is missing */
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
