@@ -9,7 +9,7 @@
 
 /* The built-in methods, one line each: X(NAME) stands for the `const struct irb_method
  * irb_method_NAME` that methods/NAME defines. The order is that of `irbench list methods`. */
-#define IRB_BUILTIN_METHODS(X) X(acrsm) X(ism) X(rsm) X(rsm_clustering)
+#define IRB_BUILTIN_METHODS(X) X(acrsm) X(clustered_visibility) X(ism) X(rsm) X(rsm_clustering)
 
 #define X(name) extern const struct irb_method irb_method_##name;
 IRB_BUILTIN_METHODS(X)

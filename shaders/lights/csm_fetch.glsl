@@ -194,6 +194,8 @@ float csm_visibility(int map, vec3 q, float radius)
     if (region > 0.0) {
         csm_footprint search = csm_footprint_of(p, csm_side(p, region, distance, d.z));
         float blocker = csm_blocker(search, p.layer, z - csm_search_offset, z);
+        if (blocker == z) /* none */
+            return 1.0;
         float near = z > 0.0 ? max(blocker / z, CSM_NEAREST) : 1.0;
         w = min(csm_penumbra_scale * radius * (1.0 - near) / near, region); /* eq. 3.2 */
     }

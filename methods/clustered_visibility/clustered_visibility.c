@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Clustered visibility: every pixel is lit by many virtual point lights (VPLs), and shadowed by few
+ * virtual area lights (VALs), which are clusters of them, with one convolution soft shadow map
+ * each.
+ */
+#include "methods/method.h"
+#include "core/lights/vpl.h"
+#include "methods/clustered_visibility/params.h"
+#include "methods/clustered_visibility/pictures.h"
+
+#include <stdlib.h>
+
+extern const struct irb_method irb_method_clustered_visibility;
+
+enum {
+    STAGE_SAMPLE,
+    STAGE_CLUSTER,
+    STAGE_MAPS,
+    STAGE_BASIS,
+    STAGE_PREFILTER,
+    STAGE_SPLIT,
+    STAGE_LIGHT,
+    STAGE_MERGE,
+    STAGE_FILTER
+};
+static const char *const stages[] = {"sample", "cluster", "maps",  "basis",  "prefilter",
+                                     "split",  "light",   "merge", "filter", NULL};
+
+/* Tallest debug layer, texels (methods/method.h). */
+enum { TALLEST_LAYER = 16384 };
+
+struct cv_state {
+    struct irb_gl *gl; /* borrowed */
+    int width, height;
+    uint64_t seed;
+    struct irb_texture *irradiance; /* RGBA32F, W/m2; share of the light that is in shadow */
+    struct cv_vals *vals;
+    struct cv_lighting lighting;
+    struct irb_interleave *interleave;
+    struct irb_vpl_set *vpls;     /* made when the first frame shows the RSM's resolution */
+    int rsm_resolution;           /* that `vpls` is made for */
+    struct cv_pictures *pictures; /* for debugging, when first asked for */
+};
+
+static void cv_destroy(void *user)
+{
+    struct cv_state *s = user;
+    if (!s)
+        return;
+    irb_texture_destroy(s->irradiance);
+    cv_vals_destroy(s->vals);
+    cv_lighting_destroy(&s->lighting);
+    irb_interleave_destroy(s->interleave);
+    irb_vpl_set_destroy(s->vpls);
+    cv_pictures_destroy(s->pictures);
+    free(s);
+}
+
+static bool cv_resize(void *user, int width, int height, struct irb_error *err)
+{
+    struct cv_state *s = user;
+    const struct irb_texture_desc desc = {.name = "clustered-visibility: irradiance",
+                                          .format = GL_RGBA32F,
+                                          .width = width,
+                                          .height = height};
+    struct irb_texture *irradiance = irb_texture_create(s->gl, &desc, err);
+    if (!irradiance)
+        return false;
+    irb_texture_destroy(s->irradiance);
+    cv_pictures_destroy(s->pictures);
+    s->irradiance = irradiance;
+    s->pictures = NULL;
+    s->width = width;
+    s->height = height;
+    return true;
+}
+
+static void *cv_create(struct irb_gl *gl, const struct irb_scene_gl *scene, int width, int height,
+                       const void *settings, struct irb_error *err)
+{
+    (void)scene;
+    (void)settings;
+    struct cv_state *s = calloc(1, sizeof *s);
+    if (!s) {
+        irb_fail(err, IRB_E_MEMORY, "clustered-visibility: out of memory");
+        return NULL;
+    }
+    s->gl = gl;
+    cv_lighting_init(&s->lighting, gl);
+    s->vals = cv_vals_create(gl, err);
+    if (s->vals && cv_resize(s, width, height, err))
+        return s;
+    cv_destroy(s);
+    return NULL;
+}
+
+static bool cv_begin_sequence(void *user, const void *settings, uint64_t seed,
+                              struct irb_error *err)
+{
+    struct cv_state *s = user;
+    (void)settings;
+    (void)err;
+    s->seed = seed;
+    cv_vals_forget(s->vals);
+    return true;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool prepare_interleave(struct cv_state *s, int side, struct irb_error *err)
+{
+    const struct irb_interleave *have = s->interleave;
+    if (have && have->width == s->width && have->height == s->height &&
+        have->n == smaller(side, s->width) && have->m == smaller(side, s->height))
+        return true;
+    irb_interleave_destroy(s->interleave);
+    s->interleave = irb_interleave_create(s->gl, s->width, s->height, side, side, err);
+    return s->interleave != NULL;
+}
+
+static bool prepare_vpls(struct cv_state *s, int resolution, struct irb_error *err)
+{
+    if (!s->vpls || s->rsm_resolution != resolution) {
+        irb_vpl_set_destroy(s->vpls);
+        cv_pictures_destroy(s->pictures);
+        s->pictures = NULL;
+        s->vpls = irb_vpl_set_create(s->gl, IRB_VPL_IMPORTANCE, resolution, CV_MOST_VPLS, err);
+        s->rsm_resolution = resolution;
+    }
+    if (s->vpls)
+        s->vpls->tiles = s->interleave->n * s->interleave->m;
+    return s->vpls != NULL;
+}
+
+/* Runs a call as a stage, unless one before it failed. */
+#define STAGE(which, call)                                                                         \
+    do {                                                                                           \
+        irb_timer_begin(in->timer, which);                                                         \
+        ok = ok && (call);                                                                         \
+        irb_timer_end(in->timer);                                                                  \
+    } while (0)
+
+static bool cluster(struct cv_state *s, const struct irb_frame_inputs *in,
+                    const struct cv_resolved *r, struct irb_error *err)
+{
+    bool ok = true;
+    STAGE(STAGE_SAMPLE, irb_vpl_set_sample(s->vpls, in->rsm, r->vpls, r->first, err));
+    const struct irb_virtual_lights vpls = irb_vpl_set_view(s->vpls);
+    STAGE(STAGE_CLUSTER, cv_vals_cluster(s->vals, &vpls, &r->clustering, err) &&
+                             cv_vals_order(s->vals, &vpls, r->clustering.tiles, err));
+    return ok;
+}
+
+/* Maps and light, batch by batch. */
+static bool light(struct cv_state *s, const struct irb_frame_inputs *in,
+                  const struct cv_resolved *r, struct irb_error *err)
+{
+    struct cv_lighting *l = &s->lighting;
+    const struct cv_lighting_settings *settings = &r->lighting;
+    const int vals = s->vals->vpls ? r->clustering.vals : 0;
+    struct cv_batch batch = {.count = -1};
+    bool ok = true;
+    STAGE(STAGE_SPLIT, irb_interleave_split(s->interleave, in->gbuffer, err));
+    while (ok && cv_lighting_next(l, settings, vals, &batch)) {
+        if (settings->visibility && batch.count > 0) {
+            STAGE(STAGE_MAPS, cv_lighting_maps(l, in->scene, s->vals, settings, &batch, err));
+            STAGE(STAGE_BASIS, irb_csm_basis(l->csm, l->maps, &settings->csm, err));
+            STAGE(STAGE_PREFILTER, irb_csm_prefilter(l->csm, err));
+        }
+        STAGE(STAGE_LIGHT, cv_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
+    }
+    STAGE(STAGE_MERGE, irb_interleave_merge(s->interleave, err));
+    STAGE(STAGE_FILTER, irb_interleave_filter(s->interleave, in->gbuffer, r->depth, r->cosine,
+                                              s->irradiance, err));
+    return ok;
+}
+
+static void add_statistic(struct irb_frame_output *out, const char *name, double value)
+{
+    out->statistics[out->statistic_count].name = name;
+    out->statistics[out->statistic_count++].value = value;
+}
+
+/* Outside the stages: the report is no part of the method's cost. */
+static bool report(struct cv_state *s, struct irb_frame_output *out, struct irb_error *err)
+{
+    struct cv_statistics statistics;
+    if (!cv_vals_statistics(s->vals, &statistics, err) ||
+        !cv_lighting_lost(&s->lighting, s->interleave, &out->lost_energy, err))
+        return false;
+    add_statistic(out, "vpls", s->vpls->count);
+    add_statistic(out, "vals", statistics.in_use);
+    add_statistic(out, "iterations", statistics.iterations);
+    add_statistic(out, "converged", statistics.converged);
+    return true;
+}
+
+static void add_layer(struct irb_frame_output *out, const char *name,
+                      const struct irb_texture *texture, enum irb_debug_kind kind)
+{
+    if (texture->height * (int64_t)(texture->layers > 0 ? texture->layers : 1) > TALLEST_LAYER)
+        return;
+    out->debug[out->debug_count].name = name;
+    out->debug[out->debug_count].texture = texture;
+    out->debug[out->debug_count++].kind = kind;
+}
+
+static bool draw_pictures(struct cv_state *s, const struct irb_frame_inputs *in, bool maps,
+                          struct irb_frame_output *out, struct irb_error *err)
+{
+    if (!s->pictures &&
+        !(s->pictures = cv_pictures_create(s->gl, s->rsm_resolution, s->width, s->height, err)))
+        return false;
+    if (!cv_pictures_draw(s->pictures, in->rsm, s->vals, s->irradiance,
+                          maps ? s->lighting.csm : NULL, err))
+        return false;
+    add_layer(out, "vals", s->pictures->vals, IRB_DEBUG_COLOUR);
+    add_layer(out, "shadow", s->pictures->shadow, IRB_DEBUG_SCALAR);
+    if (maps) {
+        add_layer(out, "maps", s->lighting.maps->distance, IRB_DEBUG_DISTANCE);
+        add_layer(out, "basis", s->pictures->basis, IRB_DEBUG_COLOUR);
+    }
+    return true;
+}
+
+static bool cv_render_frame(void *user, const struct irb_frame_inputs *in,
+                            struct irb_frame_output *out, struct irb_error *err)
+{
+    struct cv_state *s = user;
+    struct cv_resolved r;
+    *out = (struct irb_frame_output){.irradiance = s->irradiance};
+    cv_params_resolve(in->params, irb_scene_diagonal(in->scene->scene), s->seed, &r);
+    if (!prepare_interleave(s, r.interleave, err) || !prepare_vpls(s, in->rsm->resolution, err) ||
+        !cv_lighting_prepare(&s->lighting, s->interleave, &r.lighting, r.clustering.vals, err))
+        return false;
+    r.clustering.tiles = s->vpls->tiles;
+    const bool ok = cluster(s, in, &r, err) && light(s, in, &r, err) && report(s, out, err);
+    return ok && (!in->debug ||
+                  draw_pictures(s, in, r.lighting.visibility && s->vals->vpls > 0, out, err));
+}
+
+const struct irb_method irb_method_clustered_visibility = {
+    .abi = IRB_METHOD_ABI,
+    .name = "clustered-visibility",
+    .title = "Clustered visibility",
+    .citation = "Z. Dong, T. Grosch, T. Ritschel, J. Kautz and H.-P. Seidel, Real-time Indirect "
+                "Illumination with Clustered Visibility, VMV 2009",
+    .path_classes = "LDDE",
+    .claims_visibility = true,
+    .needs = IRB_NEEDS_HISTORY,
+    .params_size = sizeof(struct cv_params),
+    .params = cv_options,
+    .stages = stages,
+    .create = cv_create,
+    .resize = cv_resize,
+    .begin_sequence = cv_begin_sequence,
+    .render_frame = cv_render_frame,
+    .destroy = cv_destroy,
+};

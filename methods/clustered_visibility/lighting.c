@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT */
+#include "methods/clustered_visibility/lighting.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Work groups of light.comp and lights/shade_lost.comp, and bindings of the former. */
+enum { GROUP = 8, ROW_GROUP = 64 };
+enum { LIGHTS_BINDING = 0, VALS_BINDING = 1, CSM_BINDING = 2, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
+
+void cv_lighting_init(struct cv_lighting *l, struct irb_gl *gl)
+{
+    *l = (struct cv_lighting){.gl = gl};
+}
+
+static void destroy_maps(struct cv_lighting *l)
+{
+    irb_raster_maps_destroy(l->maps);
+    irb_csm_destroy(l->csm);
+    l->maps = NULL;
+    l->csm = NULL;
+}
+
+static void destroy_programs(struct irb_program *programs[2])
+{
+    for (int bounded = 0; bounded < 2; bounded++) {
+        irb_program_destroy(programs[bounded]);
+        programs[bounded] = NULL;
+    }
+}
+
+void cv_lighting_destroy(struct cv_lighting *l)
+{
+    destroy_maps(l);
+    destroy_programs(l->programs[0]);
+    destroy_programs(l->programs[1]);
+    irb_program_destroy(l->sum);
+    irb_texture_destroy(l->lost);
+    *l = (struct cv_lighting){.gl = l->gl};
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool prepare_maps(struct cv_lighting *l, const struct cv_lighting_settings *s, int vals,
+                         struct irb_error *err)
+{
+    const int most = smaller(irb_csm_most(l->gl, s->projection, s->size, s->order),
+                             irb_raster_maps_most(l->gl, s->projection, s->size));
+    const int capacity = smaller(vals, most);
+    const struct irb_csm *have = l->csm;
+    const bool same_shader = have && have->projection == s->projection &&
+                             have->prefilter == s->prefilter && have->order == s->order;
+    if (same_shader && have->size == s->size && have->capacity >= capacity)
+        return true;
+    if (!same_shader)
+        destroy_programs(l->programs[1]);
+    destroy_maps(l);
+    l->maps = irb_raster_maps_create(l->gl, s->projection, s->size, capacity, err);
+    if (l->maps)
+        l->csm =
+            irb_csm_create(l->gl, s->projection, s->size, capacity, s->order, s->prefilter, err);
+    return l->csm != NULL;
+}
+
+static bool prepare_lost(struct cv_lighting *l, const struct irb_interleave *il, float bound,
+                         struct irb_error *err)
+{
+    const struct irb_texture_desc desc = {.name = "clustered-visibility: lost",
+                                          .format = GL_R32F,
+                                          .width = il->split->width,
+                                          .height = il->split->height};
+    l->lost_is_valid = bound > 0;
+    if (!l->lost_is_valid ||
+        (l->lost && l->lost->width == desc.width && l->lost->height == desc.height))
+        return true;
+    irb_texture_destroy(l->lost);
+    l->lost = irb_texture_create(l->gl, &desc, err);
+    return l->lost != NULL;
+}
+
+static bool prepare_program(struct cv_lighting *l, const struct cv_lighting_settings *s,
+                            struct irb_error *err)
+{
+    struct irb_program **program = &l->programs[s->visibility][s->bound > 0];
+    struct irb_csm_defines csm;
+    char block[32], vals[32];
+    const char *defines[16] = {s->visibility ? "VISIBILITY 1" : "VISIBILITY 0", block, vals};
+    int count = 3;
+    if (*program)
+        return true;
+    snprintf(block, sizeof block, "VPL_BLOCK %d", IRB_VPL_BLOCK);
+    snprintf(vals, sizeof vals, "MOST_VALS %d", CV_MOST_VALS);
+    if (s->bound > 0)
+        defines[count++] = "CLAMPED 1";
+    if (s->visibility) {
+        irb_csm_defines(l->csm, CSM_BINDING, &csm);
+        for (int i = 0; csm.list[i]; i++)
+            defines[count++] = csm.list[i];
+    }
+    const struct irb_program_desc desc = {.name = "clustered-visibility: light",
+                                          .compute = "methods/clustered_visibility/light.comp",
+                                          .defines = defines};
+    *program = irb_program_create(l->gl, &desc, err);
+    return *program != NULL;
+}
+
+bool cv_lighting_prepare(struct cv_lighting *l, const struct irb_interleave *il,
+                         const struct cv_lighting_settings *s, int vals, struct irb_error *err)
+{
+    return (!s->visibility || prepare_maps(l, s, vals, err)) &&
+           prepare_lost(l, il, s->bound, err) && prepare_program(l, s, err);
+}
+
+bool cv_lighting_next(const struct cv_lighting *l, const struct cv_lighting_settings *s, int vals,
+                      struct cv_batch *batch)
+{
+    const bool is_first = batch->count < 0;
+    const int first = is_first ? 0 : batch->first + batch->count;
+    const int most = s->visibility ? l->csm->capacity : CV_MOST_VALS;
+    *batch = (struct cv_batch){.first = first, .count = smaller(vals - first, most)};
+    return is_first || batch->count > 0;
+}
+
+bool cv_lighting_maps(struct cv_lighting *l, const struct irb_scene_gl *scene,
+                      const struct cv_vals *vals, const struct cv_lighting_settings *s,
+                      const struct cv_batch *batch, struct irb_error *err)
+{
+    const struct irb_virtual_lights lights = cv_vals_view(vals);
+    return irb_raster_maps_render(l->maps, scene, &lights, batch->first, batch->count, s->near,
+                                  err);
+}
+
+static void bind(const struct cv_lighting *l, const struct irb_program *program,
+                 const struct irb_interleave *il, const struct cv_vals *vals,
+                 const struct cv_lighting_settings *s, const struct cv_batch *batch)
+{
+    const struct irb_gl_api *api = &l->gl->api;
+
+    api->BindTextureUnit(0, il->position->id);
+    irb_program_int(program, "split_position", 0);
+    api->BindTextureUnit(1, il->normal->id);
+    irb_program_int(program, "split_normal", 1);
+    api->BindImageTexture(SPLIT_IMAGE, il->split->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    if (s->bound > 0)
+        api->BindImageTexture(LOST_IMAGE, l->lost->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+    api->BindBufferRange(GL_UNIFORM_BUFFER, VALS_BINDING, vals->vals->id, 0,
+                         (GLsizeiptr)CV_MOST_VALS * IRB_VPL_BYTES);
+    if (s->visibility)
+        irb_csm_bind(l->csm, program, &s->csm, CSM_BINDING, 2);
+    irb_program_ivec2(program, "tile_size", (const int[]){il->tile_width, il->tile_height});
+    irb_program_int(program, "tiles_across", il->n);
+    irb_program_int(program, "tile_count", il->n * il->m);
+    irb_program_int(program, "vpl_count", vals->vpls);
+    irb_program_int(program, "first_val", batch->first);
+    irb_program_int(program, "last_val", batch->first + batch->count);
+    irb_program_float(program, "bound", s->bound);
+}
+
+bool cv_lighting_run(struct cv_lighting *l, const struct irb_interleave *il,
+                     const struct cv_vals *vals, const struct cv_lighting_settings *s,
+                     const struct cv_batch *batch, struct irb_error *err)
+{
+    const struct irb_gl_api *api = &l->gl->api;
+    const struct irb_program *program = l->programs[s->visibility][s->bound > 0];
+    const int64_t bytes = (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES;
+
+    irb_program_use(program);
+    bind(l, program, il, vals, s, batch);
+    /* no lights at all still take one dispatch, which writes zeros */
+    for (int begin = 0; begin == 0 || begin < vals->vpls; begin += IRB_VPL_BLOCK) {
+        irb_program_int(program, "block_begin", begin);
+        irb_program_int(program, "block_end", smaller(begin + IRB_VPL_BLOCK, vals->vpls));
+        irb_program_int(program, "accumulate", begin > 0 || batch->first > 0);
+        api->BindBufferRange(GL_UNIFORM_BUFFER, LIGHTS_BINDING, vals->ordered->id,
+                             begin / IRB_VPL_BLOCK * bytes, bytes);
+        api->DispatchCompute((unsigned)((il->tile_width + GROUP - 1) / GROUP),
+                             (unsigned)((il->tile_height + GROUP - 1) / GROUP),
+                             (unsigned)(il->n * il->m));
+        api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                           GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+    }
+    return irb_gl_check(l->gl, "clustered-visibility: light", err);
+}
+
+/* What is there and what the bound took, a row each. */
+static bool read_rows(struct cv_lighting *l, const struct irb_interleave *il, float *rows,
+                      int64_t bytes, struct irb_error *err)
+{
+    const struct irb_gl_api *api = &l->gl->api;
+    const struct irb_program_desc desc = {.name = "clustered-visibility: lost energy",
+                                          .compute = "lights/shade_lost.comp"};
+    if (!l->sum && !(l->sum = irb_program_create(l->gl, &desc, err)))
+        return false;
+    struct irb_buffer *sums =
+        irb_buffer_create(l->gl, "clustered-visibility: row sums", bytes, NULL, err);
+    if (!sums)
+        return false;
+    irb_program_use(l->sum);
+    api->BindTextureUnit(0, il->split->id);
+    irb_program_int(l->sum, "split_image", 0);
+    api->BindTextureUnit(1, l->lost->id);
+    irb_program_int(l->sum, "lost", 1);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sums->id);
+    api->DispatchCompute((unsigned)(il->split->height + ROW_GROUP - 1) / ROW_GROUP, 1, 1);
+    bool ok = irb_buffer_read(sums, 0, bytes, rows, err);
+    irb_buffer_destroy(sums);
+    return ok;
+}
+
+bool cv_lighting_lost(struct cv_lighting *l, const struct irb_interleave *il, double *share,
+                      struct irb_error *err)
+{
+    const int height = il->split->height;
+    const size_t bytes = (size_t)height * 2 * sizeof(float);
+
+    *share = 0;
+    if (!l->lost_is_valid)
+        return true;
+    float *rows = malloc(bytes);
+    if (!rows)
+        return irb_fail(err, IRB_E_MEMORY, "out of memory for %d row sums", height);
+    bool ok = read_rows(l, il, rows, (int64_t)bytes, err);
+    double kept = 0, lost = 0;
+    for (int y = 0; ok && y < height; y++) {
+        kept += rows[2 * y];
+        lost += rows[2 * y + 1];
+    }
+    free(rows);
+    *share = kept + lost > 0 ? lost / (kept + lost) : 0;
+    return ok;
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT */
+#include "methods/clustered_visibility/params.h"
+
+enum { UNIT_METRES, UNIT_BBOX };
+static const char *const units[] = {"metres", "bbox", NULL};
+enum { VISIBILITY_NONE, VISIBILITY_CLUSTERED };
+static const char *const visibilities[] = {"none", "clustered", NULL};
+enum { LEAST_MAP = 64, MAP_256 = 2 };
+static const char *const map_sizes[] = {"64", "128", "256", "512", NULL};
+
+#define P struct cv_params
+const struct irb_option cv_options[] = {
+    IRB_OPTION_INT(
+        P, vpls, 512, 1, CV_MOST_VPLS, "",
+        "virtual point lights, drawn from the RSM by flux, the same Halton points in each "
+        "frame; 512 are some 57 for every tile of 3 x 3",
+        "Dong et al. 2009: hundreds to thousands; value: ours"),
+    IRB_OPTION_INT(P, vals, 16, 1, CV_MOST_VALS, "",
+                   "k: clusters of the VPLs, which are virtual area lights with a shadow map each",
+                   "thesis 3.2.5; value: ours"),
+    IRB_OPTION_FLOAT(P, w_x, 1, 0, 1e6, "", "weight of the distance from VPL to VAL",
+                     "thesis eq. 3.7; value: ours"),
+    IRB_OPTION_FLOAT(P, w_a, 0.5, 0, 1e6, "1/rad",
+                     "weight of the angle between their normals: with distances in diagonals, 0.5 "
+                     "keeps walls at right angles apart up to 3/4 of a diagonal",
+                     "thesis eq. 3.7; value: ours"),
+    IRB_OPTION_ENUM(
+        P, metric_unit, UNIT_BBOX, units,
+        "unit of the distances in eq. 3.7: metres, or the diagonal of the scene at rest, "
+        "by which the clustering does not depend on the scene's scale",
+        "ours"),
+    IRB_OPTION_INT(P, iterations, 64, 1, 1024, "",
+                   "most iterations of k-means, which ends when no VPL changes its VAL",
+                   "thesis 3.2.5: until convergence; bound: ours"),
+    IRB_OPTION_ENUM(P, start, CV_RESTART, cv_start_names,
+                    "k-means starts from the first k VPLs in every frame, or from the VALs of the "
+                    "frame before, of which those that have lost their VPLs stay away",
+                    "thesis 3.2.5, figure 3.9"),
+    IRB_OPTION_ENUM(P, extent, CV_EXTENT_MOMENT, cv_extent_names,
+                    "w_light of eq. 3.2: radius of the disc with the second moment of the VAL's "
+                    "VPLs, or the distance to the farthest",
+                    "thesis eq. 3.2; ours"),
+    IRB_OPTION_ENUM(P, centre, CV_CENTRE_LIFTED, cv_centre_names,
+                    "where a VAL's shadow map stands: at the mean of its VPLs, which lies inside "
+                    "round surfaces, whose own shadow then covers all; lifted to the highest VPL, "
+                    "which on flat ones is the same; or at the VPL nearest to the mean",
+                    "ours: thesis 3.2.5 says where clusters have their centres, not their maps"),
+    IRB_OPTION_ENUM(P, visibility, VISIBILITY_CLUSTERED, visibilities,
+                    "indirect shadows: none, or from the VALs' shadow maps", "thesis 3.2.5"),
+    IRB_OPTION_ENUM(P, projection, IRB_RASTER_PARABOLOID, irb_raster_projection_names,
+                    "of the shadow maps; a hemicube's are filtered within one face at a time",
+                    "Dong et al. 2009: paraboloid; hemicube: ours"),
+    IRB_OPTION_ENUM(P, map_size, MAP_256, map_sizes, "texels a side of a shadow map's face",
+                    "thesis 3.2.5; values: ours"),
+    IRB_OPTION_FLOAT(
+        P, near, 1e-3, 0, 1, "",
+        "surfaces nearer to a VAL than this share of the scene's diagonal are left out "
+        "of its map",
+        "ours"),
+    IRB_OPTION_INT(P, order, 4, 1, IRB_CSM_ORDER_MOST, "",
+                   "M: order of the Fourier series of the shadow test", "thesis eq. 3.5; 4: ours"),
+    IRB_OPTION_ENUM(P, prefilter, IRB_CSM_MIP, irb_csm_prefilter_names,
+                    "of the basis images: mipmaps, or summed-area tables", "thesis 3.1.2"),
+    IRB_OPTION_FLOAT(
+        P, offset, 0, 0, 4, "",
+        "receivers are taken for so much nearer, in halves 1/(2M) of the series's step. "
+        "Orders of 8 and more do best with offset 1, scale 1, damping 1",
+        "Annen et al. 2007; value: ours"),
+    IRB_OPTION_FLOAT(P, scale, 2, 0.1, 8, "",
+                     "the series's sum is multiplied by this and cut at 1: without offset, a lit "
+                     "surface reads 1/2",
+                     "Annen et al. 2007"),
+    IRB_OPTION_FLOAT(
+        P, search_offset, 0.613, 0, 4, "",
+        "offset in the search for blockers: at 0.613, where Si(pi x) = pi/2, the series first "
+        "reaches 1, so that the receiver's own surface has no weight there",
+        "ours"),
+    IRB_OPTION_FLOAT(P, search_scale, 1, 0, 16, "",
+                     "radius of the search for blockers at the receiver, in w_light; s finds all "
+                     "from 1/(1 + s) of the way on, and penumbrae are cut at it",
+                     "thesis 3.1.1; value: ours"),
+    IRB_OPTION_FLOAT(P, penumbra_scale, 1, 0, 16, "", "factor of the penumbra's width",
+                     "thesis eq. 3.2"),
+    IRB_OPTION_FLOAT(
+        P, damping, 0, 0, 16, "",
+        "alpha: order k is damped by exp(-alpha (k/M)^2), against ringing, at the cost of "
+        "a wider step",
+        "Annen et al. 2007"),
+    IRB_OPTION_FLOAT(
+        P, clamp, 0, 0, 1e12, "",
+        "largest cos cos d^2/r^2 of a light and a pixel, d the diagonal of the scene's "
+        "bounds; 0 = no clamp",
+        "thesis 3.2.1; the unit: ours"),
+    IRB_OPTION_INT(P, interleave, 3, 1, IRB_INTERLEAVE_MOST, "",
+                   "n: each pixel is lit by every n^2-th VPL, and n x n pixels are averaged where "
+                   "they agree",
+                   "thesis 3.2.3; value: ours"),
+    IRB_OPTION_FLOAT(P, alpha, 0.02, 0, 10, "",
+                     "averaging: largest difference of two pixels' distances to the camera, as a "
+                     "share of the scene's diagonal",
+                     "thesis 5.3.3; value: ours"),
+    IRB_OPTION_FLOAT(P, beta, 0.9, -1, 1, "", "averaging: least cosine between two pixels' normals",
+                     "thesis 5.3.3; value: ours"),
+    IRB_OPTION_END,
+};
+#undef P
+
+/* Seed s takes the s-th stretch of the Halton sequence, so that seeds share no points; 2^30 points
+ * are exact in the radical inverses. */
+static unsigned first_point(uint64_t seed, int samples)
+{
+    return (unsigned)((seed * (uint64_t)samples) & ((1u << 30) - 1));
+}
+
+static struct cv_cluster_settings clustering_of(const struct cv_params *p, float diagonal)
+{
+    const float unit = p->metric_unit == UNIT_BBOX && diagonal > 0 ? diagonal : 1;
+    return (struct cv_cluster_settings){
+        .vals = p->vals,
+        .weight_distance = p->w_x / unit,
+        .weight_angle = p->w_a,
+        .iterations = p->iterations,
+        .start = (enum cv_start)p->start,
+        .extent = (enum cv_extent)p->extent,
+        .centre = (enum cv_centre)p->centre,
+    };
+}
+
+static struct cv_lighting_settings lighting_of(const struct cv_params *p, float diagonal)
+{
+    return (struct cv_lighting_settings){
+        .visibility = p->visibility == VISIBILITY_CLUSTERED,
+        .projection = (enum irb_raster_projection)p->projection,
+        .size = LEAST_MAP << p->map_size,
+        .near = p->near * diagonal,
+        .order = p->order,
+        .prefilter = (enum irb_csm_prefilter)p->prefilter,
+        .csm = {.offset = p->offset,
+                .scale = p->scale,
+                .search_offset = p->search_offset,
+                .damping = p->damping,
+                .search_scale = p->search_scale,
+                .penumbra_scale = p->penumbra_scale},
+        .bound = diagonal > 0 ? p->clamp / diagonal / diagonal : 0,
+    };
+}
+
+void cv_params_resolve(const struct cv_params *p, float diagonal, uint64_t seed,
+                       struct cv_resolved *out)
+{
+    *out = (struct cv_resolved){
+        .vpls = p->vpls,
+        .first = first_point(seed, p->vpls),
+        .clustering = clustering_of(p, diagonal),
+        .lighting = lighting_of(p, diagonal),
+        .interleave = p->interleave,
+        .depth = p->alpha * diagonal,
+        .cosine = p->beta,
+    };
+}

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+#include "methods/clustered_visibility/vals.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+const char *const cv_start_names[] = {"restart", "reuse", NULL};
+const char *const cv_extent_names[] = {"moment", "max", NULL};
+const char *const cv_centre_names[] = {"mean", "lifted", "member", NULL};
+
+/* Shader storage bindings and work group of shaders/methods/clustered_visibility/. */
+enum {
+    VPLS_BINDING,
+    VALS_BINDING,
+    ASSIGNMENT_BINDING,
+    STATISTICS_BINDING,
+    ORDERED_BINDING,
+    MEANS_BINDING
+};
+enum { KMEANS_GROUP = 256, GROUP = 64 };
+/* Rounds of all loops of one invocation of kmeans.comp, below llvmpipe's 65535. */
+enum { MOST_ROUNDS = 60000 };
+
+struct statistics_record {
+    uint32_t in_use, iterations, converged;
+};
+
+static struct irb_program *create_program(struct irb_gl *gl, const char *name, const char *path,
+                                          struct irb_error *err)
+{
+    char vpls[32], vals[32];
+    snprintf(vpls, sizeof vpls, "MOST_VPLS %d", CV_MOST_VPLS);
+    snprintf(vals, sizeof vals, "MOST_VALS %d", CV_MOST_VALS);
+    const char *const defines[] = {vpls, vals, NULL};
+    return irb_program_create(
+        gl, &(struct irb_program_desc){.name = name, .compute = path, .defines = defines}, err);
+}
+
+static bool create_buffers(struct cv_vals *v, struct irb_error *err)
+{
+    static const struct statistics_record none;
+    const int64_t lights = (int64_t)CV_MOST_VPLS * IRB_VPL_BYTES;
+    return (v->vals = irb_buffer_create(v->gl, "clustered-visibility: VALs",
+                                        (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES, NULL, err)) &&
+           (v->assignment = irb_buffer_create(v->gl, "clustered-visibility: assignment",
+                                              (int64_t)CV_MOST_VPLS * 4, NULL, err)) &&
+           (v->ordered =
+                irb_buffer_create(v->gl, "clustered-visibility: ordered", lights, NULL, err)) &&
+           (v->means = irb_buffer_create(v->gl, "clustered-visibility: means",
+                                         (int64_t)CV_MOST_VALS * 2 * 16, NULL, err)) &&
+           (v->statistics = irb_buffer_create(v->gl, "clustered-visibility: statistics",
+                                              sizeof none, &none, err));
+}
+
+struct cv_vals *cv_vals_create(struct irb_gl *gl, struct irb_error *err)
+{
+    struct cv_vals *v = calloc(1, sizeof *v);
+    if (!v) {
+        irb_fail(err, IRB_E_MEMORY, "clustered-visibility: out of memory");
+        return NULL;
+    }
+    v->gl = gl;
+    if (create_buffers(v, err) &&
+        (v->kmeans = create_program(gl, "clustered-visibility: k-means",
+                                    "methods/clustered_visibility/kmeans.comp", err)) &&
+        (v->finish = create_program(gl, "clustered-visibility: VALs",
+                                    "methods/clustered_visibility/finish.comp", err)) &&
+        (v->order = create_program(gl, "clustered-visibility: order",
+                                   "methods/clustered_visibility/order.comp", err)))
+        return v;
+    cv_vals_destroy(v);
+    return NULL;
+}
+
+void cv_vals_destroy(struct cv_vals *v)
+{
+    if (!v)
+        return;
+    irb_program_destroy(v->kmeans);
+    irb_program_destroy(v->finish);
+    irb_program_destroy(v->order);
+    irb_buffer_destroy(v->vals);
+    irb_buffer_destroy(v->assignment);
+    irb_buffer_destroy(v->ordered);
+    irb_buffer_destroy(v->means);
+    irb_buffer_destroy(v->statistics);
+    free(v);
+}
+
+void cv_vals_forget(struct cv_vals *v)
+{
+    v->has_history = false;
+}
+
+static void barrier(const struct cv_vals *v)
+{
+    v->gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT |
+                             GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+static void bind(const struct cv_vals *v, const struct irb_virtual_lights *vpls)
+{
+    const struct irb_gl_api *api = &v->gl->api;
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, VPLS_BINDING, vpls->buffer->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, VALS_BINDING, v->vals->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, ASSIGNMENT_BINDING, v->assignment->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, STATISTICS_BINDING, v->statistics->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, ORDERED_BINDING, v->ordered->id);
+    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, MEANS_BINDING, v->means->id);
+}
+
+/* Dispatches that make up to s->iterations, each as many as llvmpipe's limit lets it; those after
+ * convergence do nothing. */
+static void iterate(const struct cv_vals *v, int vpls, const struct cv_cluster_settings *s,
+                    bool reuse)
+{
+    const int own = (vpls + KMEANS_GROUP - 1) / KMEANS_GROUP; /* VPLs of one invocation */
+    const int rounds = own * (s->vals + 3) + vpls + 4;
+    const int at_once = MOST_ROUNDS / rounds;
+
+    irb_program_use(v->kmeans);
+    irb_program_int(v->kmeans, "vpl_count", vpls);
+    irb_program_int(v->kmeans, "val_count", s->vals);
+    irb_program_int(v->kmeans, "tiles", s->tiles > 1 ? s->tiles : 1);
+    irb_program_int(v->kmeans, "reuse", reuse);
+    irb_program_float(v->kmeans, "weight_distance", s->weight_distance);
+    irb_program_float(v->kmeans, "weight_angle", s->weight_angle);
+    for (int done = 0; done < s->iterations; done += at_once) {
+        const int rest = s->iterations - done;
+        irb_program_int(v->kmeans, "fresh", done == 0);
+        irb_program_int(v->kmeans, "iterations", rest < at_once ? rest : at_once);
+        v->gl->api.DispatchCompute(1, 1, 1);
+        barrier(v);
+    }
+}
+
+bool cv_vals_cluster(struct cv_vals *v, const struct irb_virtual_lights *vpls,
+                     const struct cv_cluster_settings *s, struct irb_error *err)
+{
+    static const struct statistics_record none = {.converged = 1};
+
+    if (vpls->count > CV_MOST_VPLS || s->vals < 1 || s->vals > CV_MOST_VALS || s->iterations < 1)
+        return irb_fail(err, IRB_E_INTERNAL, "clustered-visibility: %d VALs of %d VPLs", s->vals,
+                        vpls->count);
+    if (!vpls->count)
+        return irb_buffer_write(v->statistics, 0, sizeof none, &none, err);
+    bind(v, vpls);
+    iterate(v, vpls->count, s, s->start == CV_REUSE && v->has_history && v->count == s->vals);
+    irb_program_use(v->finish);
+    irb_program_int(v->finish, "vpl_count", vpls->count);
+    irb_program_int(v->finish, "val_count", s->vals);
+    irb_program_int(v->finish, "extent", (int)s->extent);
+    irb_program_int(v->finish, "stand", (int)s->centre);
+    v->gl->api.DispatchCompute((unsigned)(s->vals + GROUP - 1) / GROUP, 1, 1);
+    barrier(v);
+    v->count = s->vals;
+    v->has_history = true;
+    return irb_gl_check(v->gl, "clustered-visibility: k-means", err);
+}
+
+bool cv_vals_order(struct cv_vals *v, const struct irb_virtual_lights *vpls, int tiles,
+                   struct irb_error *err)
+{
+    v->vpls = vpls->count;
+    if (!vpls->count)
+        return true;
+    irb_program_use(v->order);
+    bind(v, vpls);
+    irb_program_int(v->order, "vpl_count", vpls->count);
+    irb_program_int(v->order, "tiles", tiles);
+    v->gl->api.DispatchCompute((unsigned)(vpls->count + GROUP - 1) / GROUP, 1, 1);
+    barrier(v);
+    return irb_gl_check(v->gl, "clustered-visibility: order", err);
+}
+
+bool cv_vals_statistics(const struct cv_vals *v, struct cv_statistics *out, struct irb_error *err)
+{
+    struct statistics_record record = {0};
+    if (!irb_buffer_read(v->statistics, 0, sizeof record, &record, err))
+        return false;
+    *out = (struct cv_statistics){.in_use = (int)record.in_use,
+                                  .iterations = (int)record.iterations,
+                                  .converged = record.converged != 0};
+    return true;
+}
