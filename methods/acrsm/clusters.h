@@ -49,6 +49,8 @@ struct acrsm_settings {
     int flux;        /* enum acrsm_flux: of the lights */
     int space;       /* enum acrsm_space: in which clusters rest while the light moves */
     int warp_levels; /* of the importance pyramid, from the 2 x 2 level down */
+    int tiles;       /* >= 1: of the interleaved shading (core/frame/interleave.h): seeds of the
+                        clusters i with the same i mod tiles are consecutive Halton points */
 };
 
 /* The state of a cluster as GPU buffers hold it (shaders/methods/acrsm/cluster.glsl; thesis table

@@ -65,13 +65,13 @@ const struct irb_option acrsm_options[] = {
                      "a split's seed lies within this share of the cluster's radius, on a texel of "
                      "the cluster's",
                      "thesis 5.3.1: within the radius"),
-    IRB_OPTION_FLOAT(P, w_x, 0.6, 0, 1e3, "",
+    IRB_OPTION_FLOAT(P, w_x, 0.9, 0, 1e3, "",
                      "weight of the distance (over the diagonal of the scene at rest) from texel "
                      "to cluster",
                      "thesis eq. 4.4; value: ours"),
-    IRB_OPTION_FLOAT(P, w_n, 0.3, 0, 1e3, "", "weight of the normals' difference",
+    IRB_OPTION_FLOAT(P, w_n, 0.08, 0, 1e3, "", "weight of the normals' difference",
                      "thesis eq. 4.4; value: ours"),
-    IRB_OPTION_FLOAT(P, w_rho, 0.1, 0, 1e3, "", "weight of the importances' difference",
+    IRB_OPTION_FLOAT(P, w_rho, 0.02, 0, 1e3, "", "weight of the importances' difference",
                      "thesis eq. 4.4; value: ours"),
     IRB_OPTION_ENUM(P, normal_metric, ACRSM_NORMALS_ABS, normal_metrics,
                     "normals' difference: 1 - |n.c|, which puts both sides of a wall together, or "
@@ -177,7 +177,7 @@ const struct irb_option acrsm_options[] = {
     IRB_OPTION_INT(P, interleave_m, 3, 1, IRB_INTERLEAVE_MOST, "",
                    "m: tiles up of the interleaved shading", "thesis 5.1.4"),
     IRB_OPTION_FLOAT(
-        P, alpha, 0.02, 0, 10, "",
+        P, alpha, 0.05, 0, 10, "",
         "filter: largest difference of two pixels' distances to the camera, as a share "
         "of the scene's diagonal",
         "thesis 5.3.3; value: ours"),
@@ -225,6 +225,7 @@ static struct acrsm_settings clustering_of(const struct acrsm_params *p, int rsm
         .flux = choose(p, p->flux, ACRSM_FLUX_SUM, ACRSM_FLUX_CENTER),
         .space = p->space,
         .warp_levels = p->warp_levels,
+        .tiles = p->interleave_n * p->interleave_m,
     };
 }
 

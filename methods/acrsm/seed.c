@@ -71,6 +71,7 @@ static bool list_seeds(struct acrsm_clusters *c, const struct acrsm_settings *s,
         return false;
     irb_program_use(program);
     irb_program_int(program, "active_count", c->active);
+    irb_program_int(program, "tiles", s->tiles);
     irb_program_int(program, "reseed", s->reseed);
     acrsm_dispatch(c, 1);
     return true;

@@ -30,11 +30,12 @@ static inline struct acrsm_settings acrsm_fixture_settings(int clusters, int squ
                                    .share = 1 / 3.0f,
                                    .neighbourhood = 2,
                                    .split_radius = 1,
-                                   .w_position = 0.6f,
-                                   .w_normal = 0.3f,
-                                   .w_importance = 0.1f,
+                                   .w_position = 0.9f,
+                                   .w_normal = 0.08f,
+                                   .w_importance = 0.02f,
                                    .extent = (float)extent,
-                                   .warp_levels = 16};
+                                   .warp_levels = 16,
+                                   .tiles = 9};
 }
 
 /* A quarter of the map for a square, as 128 texels of 512 are. */

@@ -74,11 +74,12 @@ static void bench(struct bench *b, int k, int square, int neighbours, int frames
                                .neighbourhood = 2,
                                .split_radius = 1,
                                .neighbours = neighbours,
-                               .w_position = 0.7f,
-                               .w_normal = 0.2f,
-                               .w_importance = 0.1f,
+                               .w_position = 0.9f,
+                               .w_normal = 0.08f,
+                               .w_importance = 0.02f,
                                .extent = irb_scene_diagonal(b->f.scene),
-                               .warp_levels = 16};
+                               .warp_levels = 16,
+                               .tiles = 9};
     fixture_view(b->f.scene, &b->f.light, &b->f.camera);
     REQUIRE_OK(acrsm_clusters_begin(b->clusters, 1, &err));
     for (int i = -1; i < frames; i++) {

@@ -237,6 +237,31 @@ static void test_seeds(void **state)
     }
 }
 
+/* Light i goes to tile i mod 9 of the interleaved shading; each tile's clusters must be strewn over
+ * all of the light's image. A Halton sequence in order would give each a ninth of its height. */
+static void test_seeds_of_tiles(void **state)
+{
+    (void)state;
+    enum { TILES = 9 };
+    struct acrsm_fixture a;
+    struct acrsm_cluster seeded[ACRSM_CLUSTERS_MOST];
+    acrsm_fixture_create(&a, gl, fixture_scene("cornell"), 128, 128);
+    struct irb_light light = acrsm_fixture_light(0);
+    acrsm_fixture_rsm(&a, &light);
+    acrsm_fixture_begin_frame(&a);
+    acrsm_fixture_state(&a, seeded);
+    for (int tile = 0; tile < TILES; tile++)
+        for (int axis = 0; axis < 2; axis++) {
+            double low = 1, high = 0;
+            for (int i = tile; i < 128; i += TILES) {
+                low = fmin(low, seeded[i].uv[axis]);
+                high = fmax(high, seeded[i].uv[axis]);
+            }
+            REQUIRE_CMP(high - low, >, 0.6);
+        }
+    acrsm_fixture_destroy(&a);
+}
+
 /* k from frame to frame: further clusters are seeded at once, the highest end, the others live on.
  */
 static void test_changing_count(void **state)
@@ -272,9 +297,8 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_decisions),
-        cmocka_unit_test(test_no_reseed),
-        cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_decisions),      cmocka_unit_test(test_no_reseed),
+        cmocka_unit_test(test_seeds),          cmocka_unit_test(test_seeds_of_tiles),
         cmocka_unit_test(test_changing_count),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
