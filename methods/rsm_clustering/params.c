@@ -178,6 +178,7 @@ bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t see
                 .splat_scale = 1,
                 .splat_most = p->splat_most,
                 .near = 1e-3f,
+                .near_radii = 1,
                 .pull_push = p->pull_push,
                 .pull = IRB_ISM_MEDIAN},
         .shade = shade_of(p, diagonal),
