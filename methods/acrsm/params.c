@@ -136,7 +136,7 @@ const struct irb_option acrsm_options[] = {
                     "splats as large as if all points stood for the same part of the surface and "
                     "faced the light, or as the part of its triangle that each stands for looks",
                     "even: thesis 5.3.2; surface: ours"),
-    IRB_OPTION_FLOAT(P, splat_scale, 1, 0.05, 16, "",
+    IRB_OPTION_FLOAT(P, splat_scale, 0.7, 0.05, 16, "",
                      "size of a splat; 1 = of the surface that one splat of a map stands for",
                      "thesis 5.3.2; value: ours"),
     IRB_OPTION_INT(P, splat_most, 16, 1, 128, "texels", "largest side of a splat", "ours"),
