@@ -328,6 +328,81 @@ static void test_energy(void **state)
     fixture_frame_destroy(&f);
 }
 
+/* The scene a thousand times smaller or larger, and light a million times weaker or stronger: E
+ * goes with I/s^2, and shadows and clamp take the same share. */
+static void test_scales(void **state)
+{
+    (void)state;
+    const float scales[] = {1, 1e-3f, 1e3f}, intensities[] = {1, 1e6f, 1e-6f};
+    const char *const settings[] = {"vpls", "64", "point_count", "64000", "clamp", "5", NULL};
+    double sum = 0, lost = 0;
+    for (int k = 0; k < 3; k++) {
+        struct fixture_frame f;
+        struct irb_frame_output out;
+        struct irb_scene *scene = fixture_scene("cornell-objects");
+        const float s = scales[k];
+        fixture_frame_create(&f, gl, scene, 24, 18, 64);
+        fixture_view(scene, &f.light, &f.camera);
+        irb_scene_gl_destroy(f.scene_gl);
+        for (size_t i = 0; i < 3 * (size_t)scene->vertex_count; i++)
+            scene->positions[i] *= s;
+        for (int i = 0; i < 3; i++) {
+            scene->bounds_min[i] *= s;
+            scene->bounds_max[i] *= s;
+            f.light.position[i] *= s;
+            f.light.intensity[i] = intensities[k];
+            f.camera.position[i] *= s;
+            f.camera.target[i] *= s;
+        }
+        f.camera.z_near *= s;
+        f.camera.z_far *= s;
+        struct irb_error err = {0};
+        REQUIRE_OK(f.scene_gl = irb_scene_gl_create(gl, scene, &err));
+        fixture_frame_render(&f);
+        struct irb_image e = render(&f, settings, &out);
+        const double found = fixture_sum(&e, 1) * (double)s * (double)s / (double)intensities[k];
+        sum = k ? sum : found;
+        lost = k ? lost : out.lost_energy;
+        REQUIRE_REL(found, sum, 5e-3);
+        REQUIRE_REL(out.lost_energy, lost, 0.02);
+        irb_image_destroy(&e);
+        fixture_frame_destroy(&f);
+    }
+    REQUIRE_CMP(lost, >, 0.001);
+}
+
+/* Either layout of G-buffer and RSM; what the slim ones cost. */
+static void test_slim_layouts(void **state)
+{
+    (void)state;
+    struct irb_error err = {0};
+    struct fixture_frame full, slim;
+    struct irb_frame_output out;
+    const char *const importances[] = {"flux", "bidirectional"};
+    make_frame(&full, "cornell", 48, 36, 64);
+    slim = full;
+    REQUIRE_OK(slim.gbuffer = irb_gbuffer_create_layout(gl, IRB_LAYOUT_SLIM, 48, 36, &err));
+    REQUIRE_OK(slim.rsm = irb_rsm_create_layout(gl, IRB_LAYOUT_SLIM, 64, &err));
+    fixture_frame_render(&slim);
+    for (int k = 0; k < 2; k++) {
+        const char *const settings[] = {"vpls", "256",        "point_count",  "64000", "clamp",
+                                        "30",   "importance", importances[k], NULL};
+        struct irb_image a = render(&full, settings, &out), b = render(&slim, settings, &out);
+        double difference = 0;
+        for (size_t i = 0; i < irb_image_pixels(&a); i++)
+            difference += fabs((double)a.data[4 * i + 1] - b.data[4 * i + 1]);
+        print_message("%s: slim against full, mean %.3f\n", importances[k],
+                      difference / fixture_sum(&a, 1));
+        REQUIRE_CMP(difference, <, 0.1 * fixture_sum(&a, 1)); /* other texels are drawn */
+        REQUIRE_CMP(difference, >, 0);
+        irb_image_destroy(&a);
+        irb_image_destroy(&b);
+    }
+    irb_gbuffer_destroy(slim.gbuffer);
+    irb_rsm_destroy(slim.rsm);
+    fixture_frame_destroy(&full);
+}
+
 /* Coverage grows with points and by pull-push, in a closed room to nearly all of the maps; shadows
  * only take light away. */
 static void test_coverage(void **state)
@@ -368,6 +443,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_unoccluded), cmocka_unit_test(test_plate),
         cmocka_unit_test(test_same_bits),  cmocka_unit_test(test_changing_frames),
         cmocka_unit_test(test_energy),     cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_scales),     cmocka_unit_test(test_slim_layouts),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);
