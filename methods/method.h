@@ -79,6 +79,32 @@ struct irb_frame_output {
     int statistic_count;
 };
 
+/* Appends a number for the report. */
+static inline void irb_output_statistic(struct irb_frame_output *output, const char *name,
+                                        double value)
+{
+    output->statistics[output->statistic_count].name = name;
+    output->statistics[output->statistic_count++].value = value;
+}
+
+/* Appends a debug layer. */
+static inline void irb_output_layer(struct irb_frame_output *output, const char *name,
+                                    const struct irb_texture *texture, enum irb_debug_kind kind)
+{
+    output->debug[output->debug_count].name = name;
+    output->debug[output->debug_count].texture = texture;
+    output->debug[output->debug_count++].kind = kind;
+}
+
+/* Runs a call as a stage of inputs->timer, unless one before it failed: ok is a bool that takes
+ * what it returns. */
+#define IRB_STAGE(ok, inputs, stage, call)                                                         \
+    do {                                                                                           \
+        irb_timer_begin((inputs)->timer, stage);                                                   \
+        (ok) = (ok) && (call);                                                                     \
+        irb_timer_end((inputs)->timer);                                                            \
+    } while (0)
+
 struct irb_method {
     int abi;                  /* IRB_METHOD_ABI */
     const char *name;         /* "rsm": config key and folder name */

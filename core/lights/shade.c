@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/lights/shade.h"
+#include "core/lights/lost_light.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Work groups of shaders/lights/shade.glsl and shade_lost.comp, and bindings there. */
-enum { GROUP = 8, ROW_GROUP = 64 };
+/* Work group side of shaders/lights/shade.glsl, and bindings there. */
+enum { GROUP = 8 };
 enum { LIGHTS_BINDING = 0, TAPS_BINDING = 1, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
 /* Programs: one a visibility, RASTER one a projection of its maps. */
 enum { VISIBILITIES = IRB_SHADE_RASTER + 1, KINDS = VISIBILITIES + 1 };
@@ -21,9 +22,7 @@ struct irb_shade {
                                                      asked for */
     struct irb_buffer *taps;                      /* blocker search, filter: vec4 each */
     int taps_made[2];                             /* how many of each it holds */
-    struct irb_program *sum;
-    struct irb_texture *lost; /* R32F, of the split buffers' size; NULL until a bound is given */
-    bool lost_is_valid;       /* for what was shaded last */
+    struct irb_lost_light lost;
 };
 
 struct irb_shade *irb_shade_create(struct irb_gl *gl, struct irb_error *err)
@@ -33,7 +32,7 @@ struct irb_shade *irb_shade_create(struct irb_gl *gl, struct irb_error *err)
         irb_fail(err, IRB_E_MEMORY, "out of memory");
         return NULL;
     }
-    shade->gl = gl;
+    shade->gl = shade->lost.gl = gl;
     shade->taps =
         irb_buffer_create(gl, "shade: taps", (int64_t)2 * IRB_SHADOW_TAPS_MOST * 16, NULL, err);
     if (shade->taps)
@@ -48,9 +47,8 @@ void irb_shade_destroy(struct irb_shade *shade)
         return;
     for (int i = 0; i < KINDS * 12; i++)
         irb_program_destroy(shade->programs[i / 12][i / 6 % 2][i / 3 % 2][i % 3]);
-    irb_program_destroy(shade->sum);
     irb_buffer_destroy(shade->taps);
-    irb_texture_destroy(shade->lost);
+    irb_lost_light_destroy(&shade->lost);
     free(shade);
 }
 
@@ -126,23 +124,13 @@ static bool prepare_taps(struct irb_shade *shade, const struct irb_shade_setting
     return true;
 }
 
-/* An image for what the bound takes, of the split buffers' size. */
+/* A bound from the first batch on, or from none. */
 static bool prepare_lost(struct irb_shade *shade, const struct irb_interleave *il,
                          const struct irb_shade_settings *s, bool accumulate, struct irb_error *err)
 {
-    const struct irb_texture *old = shade->lost;
-    const struct irb_texture_desc desc = {.name = "shade: lost",
-                                          .format = GL_R32F,
-                                          .width = il->split->width,
-                                          .height = il->split->height};
-    shade->lost_is_valid = s->bound > 0;
-    if (!(s->bound > 0) || (old && old->width == desc.width && old->height == desc.height))
-        return true;
-    if (accumulate)
+    if (s->bound > 0 && accumulate && !irb_lost_light_fits(&shade->lost, il))
         return irb_fail(err, IRB_E_INTERNAL, "shade: a bound only since the second batch");
-    irb_texture_destroy(shade->lost);
-    shade->lost = irb_texture_create(shade->gl, &desc, err);
-    return shade->lost != NULL;
+    return irb_lost_light_prepare(&shade->lost, il, s->bound, err);
 }
 
 static bool check(const struct irb_virtual_lights *lights, const struct irb_ism *ism,
@@ -191,7 +179,8 @@ static void bind(const struct irb_shade *shade, const struct irb_program *progra
     irb_program_int(program, "split_geometric", 2);
     api->BindImageTexture(SPLIT_IMAGE, il->split->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
     if (bounded)
-        api->BindImageTexture(LOST_IMAGE, shade->lost->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+        api->BindImageTexture(LOST_IMAGE, shade->lost.image->id, 0, GL_FALSE, 0, GL_READ_WRITE,
+                              GL_R32F);
     api->BindBufferBase(GL_UNIFORM_BUFFER, TAPS_BINDING, shade->taps->id);
     irb_program_ivec2(program, "tile_size", (const int[]){il->tile_width, il->tile_height});
     irb_program_int(program, "tiles_across", il->n);
@@ -289,48 +278,8 @@ bool irb_shade_run_raster(struct irb_shade *shade, struct irb_interleave *interl
     return true;
 }
 
-static bool read_rows(struct irb_shade *shade, const struct irb_interleave *il, float *rows,
-                      int64_t bytes, struct irb_error *err)
-{
-    const struct irb_gl_api *api = &shade->gl->api;
-    const struct irb_program_desc desc = {.name = "shade: lost",
-                                          .compute = "lights/shade_lost.comp"};
-    if (!shade->sum && !(shade->sum = irb_program_create(shade->gl, &desc, err)))
-        return false;
-    struct irb_buffer *sums = irb_buffer_create(shade->gl, "shade: row sums", bytes, NULL, err);
-    if (!sums)
-        return false;
-    irb_program_use(shade->sum);
-    api->BindTextureUnit(0, il->split->id);
-    irb_program_int(shade->sum, "split_image", 0);
-    api->BindTextureUnit(1, shade->lost->id);
-    irb_program_int(shade->sum, "lost", 1);
-    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sums->id);
-    api->DispatchCompute((unsigned)(il->split->height + ROW_GROUP - 1) / ROW_GROUP, 1, 1);
-    bool ok = irb_buffer_read(sums, 0, bytes, rows, err);
-    irb_buffer_destroy(sums);
-    return ok && irb_gl_check(shade->gl, "shade: lost", err);
-}
-
 bool irb_shade_lost(struct irb_shade *shade, const struct irb_interleave *il, double *share,
                     struct irb_error *err)
 {
-    const int height = il->split->height;
-    const size_t bytes = (size_t)height * 2 * sizeof(float);
-
-    *share = 0;
-    if (!shade->lost_is_valid)
-        return true;
-    float *rows = malloc(bytes);
-    if (!rows)
-        return irb_fail(err, IRB_E_MEMORY, "out of memory for %d row sums", height);
-    bool ok = read_rows(shade, il, rows, (int64_t)bytes, err);
-    double kept = 0, lost = 0;
-    for (int y = 0; ok && y < height; y++) {
-        kept += rows[2 * y];
-        lost += rows[2 * y + 1];
-    }
-    free(rows);
-    *share = kept + lost > 0 ? lost / (kept + lost) : 0;
-    return ok;
+    return irb_lost_light_share(&shade->lost, il, share, err);
 }

@@ -3,6 +3,7 @@
  * Adaptively-clustered reflective shadow maps: one-bounce light from clusters of RSM texels taken
  * as area lights, with soft shadows from imperfect shadow maps and interleaved shading.
  */
+#include "core/frame/shadow_term.h"
 #include "methods/method.h"
 #include "methods/acrsm/shadows.h"
 
@@ -37,8 +38,8 @@ struct acrsm_state {
     struct acrsm_clusters *clusters;
     struct acrsm_lighting lighting;
     /* for debugging, when first asked for */
-    struct irb_texture *map_picture, *centre_picture, *shadow_term;
-    struct irb_program *shadow_term_program;
+    struct irb_texture *map_picture, *centre_picture;
+    struct irb_shadow_term *shadow_term;
 };
 
 static void destroy_clustering(struct acrsm_state *s)
@@ -62,8 +63,7 @@ static void acrsm_destroy(void *user)
     destroy_clustering(s);
     acrsm_lighting_destroy(&s->lighting);
     irb_texture_destroy(s->irradiance);
-    irb_texture_destroy(s->shadow_term);
-    irb_program_destroy(s->shadow_term_program);
+    irb_shadow_term_destroy(s->shadow_term);
     free(s);
 }
 
@@ -76,7 +76,7 @@ static bool acrsm_resize(void *user, int width, int height, struct irb_error *er
     if (!irradiance)
         return false;
     irb_texture_destroy(s->irradiance);
-    irb_texture_destroy(s->shadow_term);
+    irb_shadow_term_destroy(s->shadow_term);
     s->irradiance = irradiance;
     s->shadow_term = NULL;
     s->width = width;
@@ -122,14 +122,6 @@ static bool prepare_clustering(struct acrsm_state *s, int resolution, struct irb
            acrsm_clusters_begin(s->clusters, s->seed, err);
 }
 
-/* Runs a call as a stage, unless one before it failed. */
-#define STAGE(which, call)                                                                         \
-    do {                                                                                           \
-        irb_timer_begin(in->timer, which);                                                         \
-        ok = ok && (call);                                                                         \
-        irb_timer_end(in->timer);                                                                  \
-    } while (0)
-
 static bool cluster(struct acrsm_state *s, const struct irb_frame_inputs *in,
                     const struct acrsm_resolved *r, struct irb_error *err)
 {
@@ -137,14 +129,17 @@ static bool cluster(struct acrsm_state *s, const struct irb_frame_inputs *in,
     const struct acrsm_settings *settings = &r->clustering;
     const struct irb_texture *importance = s->importance->map;
     bool ok = acrsm_clusters_frame(c, in->rsm, settings, err);
-    STAGE(STAGE_IMPORTANCE, irb_importance_compute(s->importance, in->rsm, in->light, in->gbuffer,
-                                                   &r->importance, err) &&
-                                irb_pyramid_build(s->pyramid, importance, err));
-    STAGE(STAGE_EVALUATE, acrsm_evaluate(c, in->rsm, settings, err));
-    STAGE(STAGE_SEED, acrsm_carry(c, in->rsm, settings, err) &&
-                          acrsm_seed(c, in->rsm, importance, s->pyramid, settings, err));
-    STAGE(STAGE_MAP, acrsm_map(c, in->rsm, importance, settings, err));
-    STAGE(STAGE_AVERAGE, acrsm_average(c, in->rsm, in->light, importance, settings, err));
+    IRB_STAGE(ok, in, STAGE_IMPORTANCE,
+              irb_importance_compute(s->importance, in->rsm, in->light, in->gbuffer, &r->importance,
+                                     err) &&
+                  irb_pyramid_build(s->pyramid, importance, err));
+    IRB_STAGE(ok, in, STAGE_EVALUATE, acrsm_evaluate(c, in->rsm, settings, err));
+    IRB_STAGE(ok, in, STAGE_SEED,
+              acrsm_carry(c, in->rsm, settings, err) &&
+                  acrsm_seed(c, in->rsm, importance, s->pyramid, settings, err));
+    IRB_STAGE(ok, in, STAGE_MAP, acrsm_map(c, in->rsm, importance, settings, err));
+    IRB_STAGE(ok, in, STAGE_AVERAGE,
+              acrsm_average(c, in->rsm, in->light, importance, settings, err));
     return ok;
 }
 
@@ -156,22 +151,19 @@ static bool light(struct acrsm_state *s, const struct irb_frame_inputs *in,
     const struct irb_ism *maps = acrsm_has_shadows(r) ? l->ism : NULL;
     bool ok = true;
     if (maps) {
-        STAGE(STAGE_SPLAT, irb_ism_splat(l->ism, in->scene, r->dynamic_points ? NULL : l->points,
-                                         &lights, &r->ism, err));
-        STAGE(STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
+        IRB_STAGE(ok, in, STAGE_SPLAT,
+                  irb_ism_splat(l->ism, in->scene, r->dynamic_points ? NULL : l->points, &lights,
+                                &r->ism, err));
+        IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
     }
-    STAGE(STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
-    STAGE(STAGE_LIGHT, irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
-    STAGE(STAGE_MERGE, irb_interleave_merge(l->interleave, err));
-    STAGE(STAGE_FILTER, irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine,
-                                              s->irradiance, err));
+    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
+    IRB_STAGE(ok, in, STAGE_LIGHT,
+              irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
+    IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(l->interleave, err));
+    IRB_STAGE(
+        ok, in, STAGE_FILTER,
+        irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
     return ok;
-}
-
-static void add_statistic(struct irb_frame_output *out, const char *name, double value)
-{
-    out->statistics[out->statistic_count].name = name;
-    out->statistics[out->statistic_count++].value = value;
 }
 
 /* Outside the stages: the report is no part of the method's cost. */
@@ -185,15 +177,15 @@ static bool report(struct acrsm_state *s, const struct irb_frame_inputs *in,
         (acrsm_has_shadows(r) && !irb_ism_coverage(s->lighting.ism, &coverage, err)))
         return false;
     out->lost_energy = clusters.uncovered;
-    add_statistic(out, "clusters", clusters.in_use);
-    add_statistic(out, "reseeded", clusters.reseeded);
-    add_statistic(out, "merged", clusters.merged);
-    add_statistic(out, "split", clusters.split);
-    add_statistic(out, "delta_spread", clusters.spread);
-    add_statistic(out, "count_spread", clusters.count_spread);
-    add_statistic(out, "flux_gain", clusters.gain);
+    irb_output_statistic(out, "clusters", clusters.in_use);
+    irb_output_statistic(out, "reseeded", clusters.reseeded);
+    irb_output_statistic(out, "merged", clusters.merged);
+    irb_output_statistic(out, "split", clusters.split);
+    irb_output_statistic(out, "delta_spread", clusters.spread);
+    irb_output_statistic(out, "count_spread", clusters.count_spread);
+    irb_output_statistic(out, "flux_gain", clusters.gain);
     if (acrsm_has_shadows(r))
-        add_statistic(out, "ism_coverage", coverage);
+        irb_output_statistic(out, "ism_coverage", coverage);
     return true;
 }
 
@@ -202,35 +194,10 @@ static bool prepare_pictures(struct acrsm_state *s, struct irb_error *err)
     const int resolution = s->clusters->resolution;
     const struct irb_texture_desc map = {
         .name = "acrsm: picture", .format = GL_RGBA32F, .width = resolution, .height = resolution};
-    const struct irb_texture_desc term = {
-        .name = "acrsm: shadow term", .format = GL_R32F, .width = s->width, .height = s->height};
-    const struct irb_program_desc program = {.name = "acrsm: shadow term",
-                                             .compute = "methods/acrsm/shadow_term.comp"};
     return (s->map_picture || (s->map_picture = irb_texture_create(s->gl, &map, err))) &&
            (s->centre_picture || (s->centre_picture = irb_texture_create(s->gl, &map, err))) &&
-           (s->shadow_term || (s->shadow_term = irb_texture_create(s->gl, &term, err))) &&
-           (s->shadow_term_program ||
-            (s->shadow_term_program = irb_program_create(s->gl, &program, err)));
-}
-
-static bool draw_shadow_term(struct acrsm_state *s, struct irb_error *err)
-{
-    const struct irb_gl_api *api = &s->gl->api;
-    irb_program_use(s->shadow_term_program);
-    api->BindTextureUnit(0, s->irradiance->id);
-    irb_program_int(s->shadow_term_program, "irradiance", 0);
-    api->BindImageTexture(0, s->shadow_term->id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
-    api->DispatchCompute((unsigned)(s->width + 7) / 8, (unsigned)(s->height + 7) / 8, 1);
-    api->MemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-    return irb_gl_check(s->gl, "acrsm: shadow term", err);
-}
-
-static void add_layer(struct irb_frame_output *out, const char *name,
-                      const struct irb_texture *texture, enum irb_debug_kind kind)
-{
-    out->debug[out->debug_count].name = name;
-    out->debug[out->debug_count].texture = texture;
-    out->debug[out->debug_count++].kind = kind;
+           (s->shadow_term ||
+            (s->shadow_term = irb_shadow_term_create(s->gl, s->width, s->height, err)));
 }
 
 static bool debug(struct acrsm_state *s, const struct acrsm_resolved *r,
@@ -239,15 +206,15 @@ static bool debug(struct acrsm_state *s, const struct acrsm_resolved *r,
     if (!prepare_pictures(s, err) ||
         !acrsm_clusters_picture(s->clusters, ACRSM_PICTURE_MAP, s->map_picture, err) ||
         !acrsm_clusters_picture(s->clusters, ACRSM_PICTURE_CENTRES, s->centre_picture, err) ||
-        !draw_shadow_term(s, err))
+        !irb_shadow_term_draw(s->shadow_term, s->irradiance, err))
         return false;
-    add_layer(out, "cluster-map", s->map_picture, IRB_DEBUG_COLOUR);
-    add_layer(out, "cluster-centres", s->centre_picture, IRB_DEBUG_COLOUR);
-    add_layer(out, "importance", s->importance->map, IRB_DEBUG_SCALAR);
+    irb_output_layer(out, "cluster-map", s->map_picture, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "cluster-centres", s->centre_picture, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "importance", s->importance->map, IRB_DEBUG_SCALAR);
     if (acrsm_has_shadows(r))
-        add_layer(out, "ism-atlas", s->lighting.ism->atlas, IRB_DEBUG_DISTANCE);
-    add_layer(out, "shadow-term", s->shadow_term, IRB_DEBUG_SCALAR);
-    add_layer(out, "split", s->lighting.interleave->split, IRB_DEBUG_RADIANCE);
+        irb_output_layer(out, "ism-atlas", s->lighting.ism->atlas, IRB_DEBUG_DISTANCE);
+    irb_output_layer(out, "shadow-term", s->shadow_term->image, IRB_DEBUG_SCALAR);
+    irb_output_layer(out, "split", s->lighting.interleave->split, IRB_DEBUG_RADIANCE);
     return true;
 }
 

@@ -136,22 +136,15 @@ static bool prepare_vpls(struct cv_state *s, int resolution, struct irb_error *e
     return s->vpls != NULL;
 }
 
-/* Runs a call as a stage, unless one before it failed. */
-#define STAGE(which, call)                                                                         \
-    do {                                                                                           \
-        irb_timer_begin(in->timer, which);                                                         \
-        ok = ok && (call);                                                                         \
-        irb_timer_end(in->timer);                                                                  \
-    } while (0)
-
 static bool cluster(struct cv_state *s, const struct irb_frame_inputs *in,
                     const struct cv_resolved *r, struct irb_error *err)
 {
     bool ok = true;
-    STAGE(STAGE_SAMPLE, irb_vpl_set_sample(s->vpls, in->rsm, r->vpls, r->first, err));
+    IRB_STAGE(ok, in, STAGE_SAMPLE, irb_vpl_set_sample(s->vpls, in->rsm, r->vpls, r->first, err));
     const struct irb_virtual_lights vpls = irb_vpl_set_view(s->vpls);
-    STAGE(STAGE_CLUSTER, cv_vals_cluster(s->vals, &vpls, &r->clustering, err) &&
-                             cv_vals_order(s->vals, &vpls, r->clustering.tiles, err));
+    IRB_STAGE(ok, in, STAGE_CLUSTER,
+              cv_vals_cluster(s->vals, &vpls, &r->clustering, err) &&
+                  cv_vals_order(s->vals, &vpls, r->clustering.tiles, err));
     return ok;
 }
 
@@ -164,25 +157,22 @@ static bool light(struct cv_state *s, const struct irb_frame_inputs *in,
     const int vals = s->vals->vpls ? r->clustering.vals : 0;
     struct cv_batch batch = {.count = -1};
     bool ok = true;
-    STAGE(STAGE_SPLIT, irb_interleave_split(s->interleave, in->gbuffer, err));
+    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(s->interleave, in->gbuffer, err));
     while (ok && cv_lighting_next(l, settings, vals, &batch)) {
         if (settings->visibility && batch.count > 0) {
-            STAGE(STAGE_MAPS, cv_lighting_maps(l, in->scene, s->vals, settings, &batch, err));
-            STAGE(STAGE_BASIS, irb_csm_basis(l->csm, l->maps, &settings->csm, err));
-            STAGE(STAGE_PREFILTER, irb_csm_prefilter(l->csm, err));
+            IRB_STAGE(ok, in, STAGE_MAPS,
+                      cv_lighting_maps(l, in->scene, s->vals, settings, &batch, err));
+            IRB_STAGE(ok, in, STAGE_BASIS, irb_csm_basis(l->csm, l->maps, &settings->csm, err));
+            IRB_STAGE(ok, in, STAGE_PREFILTER, irb_csm_prefilter(l->csm, err));
         }
-        STAGE(STAGE_LIGHT, cv_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
+        IRB_STAGE(ok, in, STAGE_LIGHT,
+                  cv_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
     }
-    STAGE(STAGE_MERGE, irb_interleave_merge(s->interleave, err));
-    STAGE(STAGE_FILTER, irb_interleave_filter(s->interleave, in->gbuffer, r->depth, r->cosine,
-                                              s->irradiance, err));
+    IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(s->interleave, err));
+    IRB_STAGE(
+        ok, in, STAGE_FILTER,
+        irb_interleave_filter(s->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
     return ok;
-}
-
-static void add_statistic(struct irb_frame_output *out, const char *name, double value)
-{
-    out->statistics[out->statistic_count].name = name;
-    out->statistics[out->statistic_count++].value = value;
 }
 
 /* Outside the stages: the report is no part of the method's cost. */
@@ -192,10 +182,10 @@ static bool report(struct cv_state *s, struct irb_frame_output *out, struct irb_
     if (!cv_vals_statistics(s->vals, &statistics, err) ||
         !cv_lighting_lost(&s->lighting, s->interleave, &out->lost_energy, err))
         return false;
-    add_statistic(out, "vpls", s->vpls->count);
-    add_statistic(out, "vals", statistics.in_use);
-    add_statistic(out, "iterations", statistics.iterations);
-    add_statistic(out, "converged", statistics.converged);
+    irb_output_statistic(out, "vpls", s->vpls->count);
+    irb_output_statistic(out, "vals", statistics.in_use);
+    irb_output_statistic(out, "iterations", statistics.iterations);
+    irb_output_statistic(out, "converged", statistics.converged);
     return true;
 }
 
@@ -204,9 +194,7 @@ static void add_layer(struct irb_frame_output *out, const char *name,
 {
     if (texture->height * (int64_t)(texture->layers > 0 ? texture->layers : 1) > TALLEST_LAYER)
         return;
-    out->debug[out->debug_count].name = name;
-    out->debug[out->debug_count].texture = texture;
-    out->debug[out->debug_count++].kind = kind;
+    irb_output_layer(out, name, texture, kind);
 }
 
 static bool draw_pictures(struct cv_state *s, const struct irb_frame_inputs *in, bool maps,
@@ -219,7 +207,7 @@ static bool draw_pictures(struct cv_state *s, const struct irb_frame_inputs *in,
                           maps ? s->lighting.csm : NULL, err))
         return false;
     add_layer(out, "vals", s->pictures->vals, IRB_DEBUG_COLOUR);
-    add_layer(out, "shadow", s->pictures->shadow, IRB_DEBUG_SCALAR);
+    add_layer(out, "shadow", s->pictures->shadow->image, IRB_DEBUG_SCALAR);
     if (maps) {
         add_layer(out, "maps", s->lighting.maps->distance, IRB_DEBUG_DISTANCE);
         add_layer(out, "basis", s->pictures->basis, IRB_DEBUG_COLOUR);

@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Work groups of light.comp and lights/shade_lost.comp, and bindings of the former. */
-enum { GROUP = 8, ROW_GROUP = 64 };
+/* Work group side of light.comp, and bindings there. */
+enum { GROUP = 8 };
 enum { LIGHTS_BINDING = 0, VALS_BINDING = 1, CSM_BINDING = 2, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
 
 void cv_lighting_init(struct cv_lighting *l, struct irb_gl *gl)
 {
-    *l = (struct cv_lighting){.gl = gl};
+    *l = (struct cv_lighting){.gl = gl, .lost.gl = gl};
 }
 
 static void destroy_maps(struct cv_lighting *l)
@@ -34,9 +34,8 @@ void cv_lighting_destroy(struct cv_lighting *l)
     destroy_maps(l);
     destroy_programs(l->programs[0]);
     destroy_programs(l->programs[1]);
-    irb_program_destroy(l->sum);
-    irb_texture_destroy(l->lost);
-    *l = (struct cv_lighting){.gl = l->gl};
+    irb_lost_light_destroy(&l->lost);
+    cv_lighting_init(l, l->gl);
 }
 
 static int smaller(int a, int b)
@@ -63,22 +62,6 @@ static bool prepare_maps(struct cv_lighting *l, const struct cv_lighting_setting
         l->csm =
             irb_csm_create(l->gl, s->projection, s->size, capacity, s->order, s->prefilter, err);
     return l->csm != NULL;
-}
-
-static bool prepare_lost(struct cv_lighting *l, const struct irb_interleave *il, float bound,
-                         struct irb_error *err)
-{
-    const struct irb_texture_desc desc = {.name = "clustered-visibility: lost",
-                                          .format = GL_R32F,
-                                          .width = il->split->width,
-                                          .height = il->split->height};
-    l->lost_is_valid = bound > 0;
-    if (!l->lost_is_valid ||
-        (l->lost && l->lost->width == desc.width && l->lost->height == desc.height))
-        return true;
-    irb_texture_destroy(l->lost);
-    l->lost = irb_texture_create(l->gl, &desc, err);
-    return l->lost != NULL;
 }
 
 static bool prepare_program(struct cv_lighting *l, const struct cv_lighting_settings *s,
@@ -111,7 +94,7 @@ bool cv_lighting_prepare(struct cv_lighting *l, const struct irb_interleave *il,
                          const struct cv_lighting_settings *s, int vals, struct irb_error *err)
 {
     return (!s->visibility || prepare_maps(l, s, vals, err)) &&
-           prepare_lost(l, il, s->bound, err) && prepare_program(l, s, err);
+           irb_lost_light_prepare(&l->lost, il, s->bound, err) && prepare_program(l, s, err);
 }
 
 bool cv_lighting_next(const struct cv_lighting *l, const struct cv_lighting_settings *s, int vals,
@@ -145,7 +128,8 @@ static void bind(const struct cv_lighting *l, const struct irb_program *program,
     irb_program_int(program, "split_normal", 1);
     api->BindImageTexture(SPLIT_IMAGE, il->split->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
     if (s->bound > 0)
-        api->BindImageTexture(LOST_IMAGE, l->lost->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+        api->BindImageTexture(LOST_IMAGE, l->lost.image->id, 0, GL_FALSE, 0, GL_READ_WRITE,
+                              GL_R32F);
     api->BindBufferRange(GL_UNIFORM_BUFFER, VALS_BINDING, vals->vals->id, 0,
                          (GLsizeiptr)CV_MOST_VALS * IRB_VPL_BYTES);
     if (s->visibility)
@@ -185,50 +169,8 @@ bool cv_lighting_run(struct cv_lighting *l, const struct irb_interleave *il,
     return irb_gl_check(l->gl, "clustered-visibility: light", err);
 }
 
-/* What is there and what the bound took, a row each. */
-static bool read_rows(struct cv_lighting *l, const struct irb_interleave *il, float *rows,
-                      int64_t bytes, struct irb_error *err)
-{
-    const struct irb_gl_api *api = &l->gl->api;
-    const struct irb_program_desc desc = {.name = "clustered-visibility: lost energy",
-                                          .compute = "lights/shade_lost.comp"};
-    if (!l->sum && !(l->sum = irb_program_create(l->gl, &desc, err)))
-        return false;
-    struct irb_buffer *sums =
-        irb_buffer_create(l->gl, "clustered-visibility: row sums", bytes, NULL, err);
-    if (!sums)
-        return false;
-    irb_program_use(l->sum);
-    api->BindTextureUnit(0, il->split->id);
-    irb_program_int(l->sum, "split_image", 0);
-    api->BindTextureUnit(1, l->lost->id);
-    irb_program_int(l->sum, "lost", 1);
-    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, sums->id);
-    api->DispatchCompute((unsigned)(il->split->height + ROW_GROUP - 1) / ROW_GROUP, 1, 1);
-    bool ok = irb_buffer_read(sums, 0, bytes, rows, err);
-    irb_buffer_destroy(sums);
-    return ok;
-}
-
 bool cv_lighting_lost(struct cv_lighting *l, const struct irb_interleave *il, double *share,
                       struct irb_error *err)
 {
-    const int height = il->split->height;
-    const size_t bytes = (size_t)height * 2 * sizeof(float);
-
-    *share = 0;
-    if (!l->lost_is_valid)
-        return true;
-    float *rows = malloc(bytes);
-    if (!rows)
-        return irb_fail(err, IRB_E_MEMORY, "out of memory for %d row sums", height);
-    bool ok = read_rows(l, il, rows, (int64_t)bytes, err);
-    double kept = 0, lost = 0;
-    for (int y = 0; ok && y < height; y++) {
-        kept += rows[2 * y];
-        lost += rows[2 * y + 1];
-    }
-    free(rows);
-    *share = kept + lost > 0 ? lost / (kept + lost) : 0;
-    return ok;
+    return irb_lost_light_share(&l->lost, il, share, err);
 }

@@ -8,6 +8,7 @@
 
 #include "core/frame/interleave.h"
 #include "core/lights/csm.h"
+#include "core/lights/lost_light.h"
 #include "methods/clustered_visibility/vals.h"
 
 struct cv_lighting_settings {
@@ -25,10 +26,8 @@ struct cv_lighting {
     struct irb_gl *gl; /* borrowed */
     struct irb_raster_maps *maps;
     struct irb_csm *csm;
-    struct irb_texture *lost;           /* R32F, of the split buffers; NULL until asked for */
+    struct irb_lost_light lost;
     struct irb_program *programs[2][2]; /* visibility, bounded; of this csm */
-    struct irb_program *sum;
-    bool lost_is_valid; /* for what was lit last */
 };
 
 /* All else may be zero. */

@@ -29,7 +29,7 @@ struct cv_pictures *cv_pictures_create(struct irb_gl *gl, int resolution, int wi
     }
     p->gl = gl;
     if (create_texture(p, &p->vals, GL_RGBA32F, resolution, resolution, 0, err) &&
-        create_texture(p, &p->shadow, GL_R32F, width, height, 0, err) &&
+        (p->shadow = irb_shadow_term_create(gl, width, height, err)) &&
         (p->on_vals =
              irb_framebuffer_create(gl, "clustered-visibility: VALs", &p->vals, 1, NULL, err)))
         return p;
@@ -45,10 +45,9 @@ void cv_pictures_destroy(struct cv_pictures *p)
     for (int layout = 0; layout < 2; layout++)
         irb_program_destroy(p->surfaces[layout]);
     irb_program_destroy(p->points);
-    irb_program_destroy(p->share);
     irb_program_destroy(p->images);
     irb_texture_destroy(p->vals);
-    irb_texture_destroy(p->shadow);
+    irb_shadow_term_destroy(p->shadow);
     irb_texture_destroy(p->basis);
     free(p);
 }
@@ -109,21 +108,6 @@ static bool draw_vals(struct cv_pictures *p, const struct irb_rsm *rsm, const st
     return true;
 }
 
-static bool draw_shadow(struct cv_pictures *p, const struct irb_texture *irradiance,
-                        struct irb_error *err)
-{
-    const struct irb_program_desc desc = {.name = "clustered-visibility: show shadow",
-                                          .compute =
-                                              "methods/clustered_visibility/show_shadow.comp"};
-    const struct irb_program *program = use(p->gl, &p->share, &desc, err);
-    if (!program)
-        return false;
-    p->gl->api.BindTextureUnit(0, irradiance->id);
-    irb_program_int(program, "irradiance", 0);
-    dispatch(p, p->shadow);
-    return true;
-}
-
 /* The plain basis images of the first map, all of its faces. */
 static bool draw_basis(struct cv_pictures *p, const struct irb_csm *csm, struct irb_error *err)
 {
@@ -151,7 +135,7 @@ bool cv_pictures_draw(struct cv_pictures *p, const struct irb_rsm *rsm, const st
                       const struct irb_texture *irradiance, const struct irb_csm *csm,
                       struct irb_error *err)
 {
-    return draw_vals(p, rsm, vals, err) && draw_shadow(p, irradiance, err) &&
+    return draw_vals(p, rsm, vals, err) && irb_shadow_term_draw(p->shadow, irradiance, err) &&
            (!csm || draw_basis(p, csm, err)) &&
            irb_gl_check(p->gl, "clustered-visibility: pictures", err);
 }

@@ -7,16 +7,17 @@
 #define IRB_METHODS_CLUSTERED_VISIBILITY_PICTURES_H
 
 #include "core/frame/rsm.h"
+#include "core/frame/shadow_term.h"
 #include "core/lights/csm.h"
 #include "methods/clustered_visibility/vals.h"
 
 struct cv_pictures {
-    struct irb_gl *gl;          /* borrowed */
-    struct irb_texture *vals;   /* RGBA32F, RSM: [0,1] */
-    struct irb_texture *shadow; /* R32F, image: share of the light that is in shadow */
+    struct irb_gl *gl;        /* borrowed */
+    struct irb_texture *vals; /* RGBA32F, RSM: [0,1] */
+    struct irb_shadow_term *shadow;
     struct irb_texture
         *basis; /* RGBA32F array: sin, cos, sin, cos as (v + 1)/2; NULL without maps */
-    struct irb_program *surfaces[2], *points, *share, *images; /* private; by the RSM's layout */
+    struct irb_program *surfaces[2], *points, *images; /* private; by the RSM's layout */
     struct irb_framebuffer *on_vals;
 };
 

@@ -7,7 +7,9 @@
  * density), nor bounce light twice.
  */
 #include "methods/method.h"
-#include "methods/ism/debug.h"
+#include "core/frame/shadow_term.h"
+#include "methods/ism/objects.h"
+#include "methods/method.h"
 #include "methods/ism/objects.h"
 
 #include "core/sampling/sobol.h"
@@ -32,7 +34,7 @@ static const char *const stages[] = {"sample", "points", "splat", "pull-push", "
 
 struct ism_state {
     struct ism_objects *objects;
-    struct ism_debug *debug; /* made when layers are first asked for */
+    struct irb_shadow_term *shadow_term; /* made when layers are first asked for */
 };
 
 static void ism_destroy(void *user)
@@ -41,7 +43,7 @@ static void ism_destroy(void *user)
     if (!state)
         return;
     ism_objects_destroy(state->objects);
-    ism_debug_destroy(state->debug);
+    irb_shadow_term_destroy(state->shadow_term);
     free(state);
 }
 
@@ -64,8 +66,8 @@ static void *ism_create(struct irb_gl *gl, const struct irb_scene_gl *scene, int
 static bool ism_resize(void *user, int width, int height, struct irb_error *err)
 {
     struct ism_state *state = user;
-    ism_debug_destroy(state->debug);
-    state->debug = NULL;
+    irb_shadow_term_destroy(state->shadow_term);
+    state->shadow_term = NULL;
     return ism_objects_resize(state->objects, width, height, err);
 }
 
@@ -233,10 +235,20 @@ static bool light_tiles(struct ism_objects *o, const struct irb_frame_inputs *in
     return ok;
 }
 
-static void add_statistic(struct irb_frame_output *out, const char *name, double value)
+static bool debug(struct ism_state *state, bool maps, struct irb_frame_output *out,
+                  struct irb_error *err)
 {
-    out->statistics[out->statistic_count].name = name;
-    out->statistics[out->statistic_count++].value = value;
+    const struct ism_objects *o = state->objects;
+    if (!state->shadow_term &&
+        !(state->shadow_term = irb_shadow_term_create(o->gl, o->width, o->height, err)))
+        return false;
+    if (!irb_shadow_term_draw(state->shadow_term, o->irradiance, err))
+        return false;
+    if (maps)
+        irb_output_layer(out, "ism-atlas", o->maps->atlas, IRB_DEBUG_DISTANCE);
+    irb_output_layer(out, "split", o->interleave->split, IRB_DEBUG_RADIANCE);
+    irb_output_layer(out, "shadow-term", state->shadow_term->image, IRB_DEBUG_SCALAR);
+    return true;
 }
 
 /* Outside the stages: the report is no part of the method's cost. */
@@ -249,20 +261,16 @@ static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
     const bool maps = p->visibility == ISM_IMPERFECT;
     if (p->clamp > 0 && !irb_shade_lost(o->shade, o->interleave, &out->lost_energy, err))
         return false;
-    add_statistic(out, "vpls", o->lights->count);
+    irb_output_statistic(out, "vpls", o->lights->count);
     if (maps && o->points) {
-        add_statistic(out, "points", (double)o->points->count);
-        add_statistic(out, "splats", (double)o->points->count * (double)p->splat_factor);
+        irb_output_statistic(out, "points", (double)o->points->count);
+        irb_output_statistic(out, "splats", (double)o->points->count * (double)p->splat_factor);
     }
     if (maps) {
-        add_statistic(out, "coverage-splatted", coverage->splatted);
-        add_statistic(out, "coverage", coverage->filled);
+        irb_output_statistic(out, "coverage-splatted", coverage->splatted);
+        irb_output_statistic(out, "coverage", coverage->filled);
     }
-    if (!in->debug)
-        return true;
-    if (!state->debug && !(state->debug = ism_debug_create(o->gl, o->width, o->height, err)))
-        return false;
-    return ism_debug_layers(state->debug, o, maps, out, err);
+    return !in->debug || debug(state, maps, out, err);
 }
 
 /* Area points are drawn once for a sequence, before any stage, or anew in every frame, in a stage

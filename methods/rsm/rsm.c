@@ -288,12 +288,6 @@ static bool gather_full(struct rsm_state *state, const struct irb_frame_inputs *
     return ok;
 }
 
-static void add_statistic(struct irb_frame_output *out, const char *name, double value)
-{
-    out->statistics[out->statistic_count].name = name;
-    out->statistics[out->statistic_count++].value = value;
-}
-
 /* Outside the stages: the report is no part of the method's cost. */
 static bool report(struct rsm_state *state, const struct rsm_params *p, float bound, bool lowres,
                    struct irb_frame_output *out, struct irb_error *err)
@@ -303,9 +297,9 @@ static bool report(struct rsm_state *state, const struct rsm_params *p, float bo
         return false;
     if (lowres && !rsm_lowres_share(state->lowres, &share, err))
         return false;
-    add_statistic(out, "vpls", p->mode == MODE_POLAR ? p->samples : state->lights->count);
+    irb_output_statistic(out, "vpls", p->mode == MODE_POLAR ? p->samples : state->lights->count);
     if (lowres)
-        add_statistic(out, "reevaluated", share);
+        irb_output_statistic(out, "reevaluated", share);
     return true;
 }
 

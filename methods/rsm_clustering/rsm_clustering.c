@@ -134,30 +134,23 @@ static bool prepare_clustering(struct rsc_state *s, int resolution, const struct
            rsc_area_lights_prepare(s->lights, r->clustering.clusters, r->corners, err);
 }
 
-/* Runs a call as a stage, unless one before it failed. */
-#define STAGE(which, call)                                                                         \
-    do {                                                                                           \
-        irb_timer_begin(in->timer, which);                                                         \
-        ok = ok && (call);                                                                         \
-        irb_timer_end(in->timer);                                                                  \
-    } while (0)
-
 static bool cluster(struct rsc_state *s, const struct irb_frame_inputs *in,
                     const struct rsc_resolved *r, struct irb_error *err)
 {
     struct rsc_clusters *c = s->clusters;
     const struct rsc_settings *settings = &r->clustering;
     bool ok = true;
-    STAGE(STAGE_IMPORTANCE, irb_importance_compute(s->importance, in->rsm, in->light, in->gbuffer,
-                                                   &r->importance, err) &&
-                                irb_pyramid_build(s->pyramid, s->importance->map, err));
-    STAGE(STAGE_SEED, rsc_clusters_seed(c, in->rsm, s->pyramid, settings, err));
-    STAGE(STAGE_GRID, rsc_clusters_grid(c, settings, err));
-    STAGE(STAGE_ASSIGN, rsc_clusters_assign(c, in->rsm, settings, err));
-    STAGE(STAGE_SORT, rsc_clusters_sort(c, in->rsm, settings, err));
-    STAGE(STAGE_UPDATE, rsc_clusters_update(c, in->rsm, settings, err));
-    STAGE(STAGE_GEOMETRY,
-          rsc_area_lights_make(s->lights, c, in->rsm, settings, r->area, r->corners, err));
+    IRB_STAGE(ok, in, STAGE_IMPORTANCE,
+              irb_importance_compute(s->importance, in->rsm, in->light, in->gbuffer, &r->importance,
+                                     err) &&
+                  irb_pyramid_build(s->pyramid, s->importance->map, err));
+    IRB_STAGE(ok, in, STAGE_SEED, rsc_clusters_seed(c, in->rsm, s->pyramid, settings, err));
+    IRB_STAGE(ok, in, STAGE_GRID, rsc_clusters_grid(c, settings, err));
+    IRB_STAGE(ok, in, STAGE_ASSIGN, rsc_clusters_assign(c, in->rsm, settings, err));
+    IRB_STAGE(ok, in, STAGE_SORT, rsc_clusters_sort(c, in->rsm, settings, err));
+    IRB_STAGE(ok, in, STAGE_UPDATE, rsc_clusters_update(c, in->rsm, settings, err));
+    IRB_STAGE(ok, in, STAGE_GEOMETRY,
+              rsc_area_lights_make(s->lights, c, in->rsm, settings, r->area, r->corners, err));
     return ok;
 }
 
@@ -170,21 +163,18 @@ static bool light(struct rsc_state *s, const struct irb_frame_inputs *in,
     const struct irb_ism *maps = rsc_has_shadows(r) ? l->ism : NULL;
     bool ok = true;
     if (maps) {
-        STAGE(STAGE_SPLAT, irb_ism_splat(l->ism, in->scene, l->points, &discs, &r->ism, err));
-        STAGE(STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
+        IRB_STAGE(ok, in, STAGE_SPLAT,
+                  irb_ism_splat(l->ism, in->scene, l->points, &discs, &r->ism, err));
+        IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
     }
-    STAGE(STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
-    STAGE(STAGE_LIGHT, irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
-    STAGE(STAGE_MERGE, irb_interleave_merge(l->interleave, err));
-    STAGE(STAGE_FILTER, irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine,
-                                              s->irradiance, err));
+    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
+    IRB_STAGE(ok, in, STAGE_LIGHT,
+              irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
+    IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(l->interleave, err));
+    IRB_STAGE(
+        ok, in, STAGE_FILTER,
+        irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
     return ok;
-}
-
-static void add_statistic(struct irb_frame_output *out, const char *name, double value)
-{
-    out->statistics[out->statistic_count].name = name;
-    out->statistics[out->statistic_count++].value = value;
 }
 
 /* Outside the stages: the report is no part of the method's cost. */
@@ -196,20 +186,12 @@ static bool report(struct rsc_state *s, const struct irb_frame_inputs *in,
     if (!rsc_clusters_count(s->clusters, in->rsm, &census, err))
         return false;
     out->lost_energy = census.flux > 0 ? census.lost_flux / census.flux : 0;
-    add_statistic(out, "clusters", r->clustering.clusters);
-    add_statistic(out, "active", census.active);
-    add_statistic(out, "seeded", census.seeded);
-    add_statistic(out, "lit_texels", census.lit);
-    add_statistic(out, "lost_texels", census.lost);
+    irb_output_statistic(out, "clusters", r->clustering.clusters);
+    irb_output_statistic(out, "active", census.active);
+    irb_output_statistic(out, "seeded", census.seeded);
+    irb_output_statistic(out, "lit_texels", census.lit);
+    irb_output_statistic(out, "lost_texels", census.lost);
     return true;
-}
-
-static void add_layer(struct irb_frame_output *out, const char *name,
-                      const struct irb_texture *texture, enum irb_debug_kind kind)
-{
-    out->debug[out->debug_count].name = name;
-    out->debug[out->debug_count].texture = texture;
-    out->debug[out->debug_count++].kind = kind;
 }
 
 static bool draw_pictures(struct rsc_state *s, const struct irb_frame_inputs *in,
@@ -221,12 +203,12 @@ static bool draw_pictures(struct rsc_state *s, const struct irb_frame_inputs *in
     const struct rsc_pictures *p = s->pictures;
     if (!rsc_pictures_draw(s->pictures, s->clusters, s->lights, in->rsm, in->gbuffer, err))
         return false;
-    add_layer(out, "importance", s->importance->map, IRB_DEBUG_SCALAR);
-    add_layer(out, "cluster-map", p->map, IRB_DEBUG_COLOUR);
-    add_layer(out, "rsm-flux", p->flux, IRB_DEBUG_COLOUR);
-    add_layer(out, "clustered-flux", p->clustered, IRB_DEBUG_COLOUR);
-    add_layer(out, "cluster-centres", p->centres, IRB_DEBUG_COLOUR);
-    add_layer(out, "area-lights", p->lights, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "importance", s->importance->map, IRB_DEBUG_SCALAR);
+    irb_output_layer(out, "cluster-map", p->map, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "rsm-flux", p->flux, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "clustered-flux", p->clustered, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "cluster-centres", p->centres, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "area-lights", p->lights, IRB_DEBUG_COLOUR);
     return true;
 }
 
