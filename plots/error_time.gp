@@ -1,32 +1,58 @@
 # SPDX-License-Identifier: MIT
-# Error against frame time, one point a trial:
+# Error against frame time: a panel for each scene, a colour for each method, a point for each trial.
 #
 #     irbench table RUN --format csv > run.csv
 #     gnuplot -e "csv='run.csv'; out='run.svg'" plots/error_time.gp
+#     gnuplot -e "csv='run.csv'; out='run.png'; metric='indirect_flip'" plots/error_time.gp
 #
-# out may end in .svg or .png. Columns are found by name, so that new metrics do not move them.
+# out ends in .svg or .png; metric is a column of the table, indirect_relmse by default. Columns are
+# found by name, so that new ones do not move them.
 if (!exists("csv")) { print "usage: gnuplot -e \"csv='run.csv'; out='run.svg'\" plots/error_time.gp"; exit status 2 }
 if (!exists("out")) out = "error_time.svg"
-if (out[strlen(out)-2:] eq "png") {
-    set terminal pngcairo size 960,600 font "DejaVu Sans,11"
-} else {
-    set terminal svg size 960,600 dynamic font "DejaVu Sans,13"
-}
-set output out
+if (!exists("metric")) metric = "indirect_relmse"
 set datafile separator comma
 set datafile missing ""
 set datafile columnheaders
+
+# names of scenes and methods, in the order in which they come
+scenes = ""; methods = ""; trials = ""
+name(column) = sprintf(" %s ", strcol(column))
+add(list, name) = strstrt(list, name) ? list : list . name
+stats csv using (scenes = add(scenes, name("scene")), methods = add(methods, name("method")), \
+                 trials = add(trials, name("trial")), 1) nooutput
+panels = words(scenes)
+
+width = panels > 1 ? 620 * (panels > 2 ? 3 : panels) : 960
+height = 560 * ((panels + 2) / 3)
+if (out[strlen(out)-2:] eq "png") {
+    set terminal pngcairo size width,height font "DejaVu Sans,10"
+} else {
+    set terminal svg size width,height dynamic font "DejaVu Sans,11"
+}
+set output out
 set logscale xy
 set format "%g"
 set xlabel "frame time, median (ms)"
-set ylabel "indirect relMSE against bounce 1"
+set ylabel metric noenhanced
 set grid lc rgb "#dddddd"
-set key outside right top noenhanced spacing 1.1
-set offsets graph 0.05, graph 0.05, graph 0.1, graph 0.1
+set key outside below left Left reverse noenhanced maxcols 2 font ",8"
+set autoscale fix
+set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.08
 # Okabe and Ito's palette, safe for colour-blind readers (jfly.uni-koeln.de/color, 2008)
 array colour[8] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#000000"]
-array trial[1000]
-stats csv using (trial[int($0) + 1] = strcol("trial"), 1) nooutput
-rows = int(STATS_records)
-plot for [i=1:rows] csv every ::(i - 1)::(i - 1) using "frame_ms":"indirect_relmse" \
-     with points pt (4 + 2 * ((i - 1) / 8) + i % 2) ps 1.4 lw 2 lc rgb colour[(i - 1) % 8 + 1] title trial[i]
+# number of a trial among those of its method: its symbol
+of(trial) = (trial[1:strstrt(trial . ":", ":") - 1])
+rank(i) = (sum [j=1:i] of(word(trials, j)) eq of(word(trials, i)))
+method_of(i) = (sum [j=1:words(methods)] of(word(trials, i)) eq word(methods, j) ? j : 0)
+here(scene, trial, value) = strcol("scene") eq scene && strcol("trial") eq trial ? value : NaN
+
+set multiplot layout (panels + 2) / 3, panels > 2 ? 3 : panels
+do for [s=1:panels] {
+    scene = word(scenes, s)
+    set title scene noenhanced
+    plot for [i=1:words(trials)] csv \
+         using "frame_ms":(here(scene, word(trials, i), column(metric))) \
+         with points pt 3 + rank(i) ps 1.3 lw 2 lc rgb colour[(method_of(i) - 1) % 8 + 1] \
+         title word(trials, i)
+}
+unset multiplot
