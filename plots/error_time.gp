@@ -34,7 +34,11 @@ set logscale xy
 set format "%g"
 set xlabel "frame time, median (ms)"
 set ylabel metric noenhanced
-set grid lc rgb "#dddddd"
+do for [k=-9:9] {
+    do for [d in "1 2 5"] { set xtics add (sprintf("%g", d * 10.0**k) d * 10.0**k) }
+    do for [d in "1 1.5 2 3 4 5 7"] { set ytics add (sprintf("%g", d * 10.0**k) d * 10.0**k) }
+}
+set grid lt 1 lc rgb "#dddddd"
 set key outside below left Left reverse noenhanced maxcols 2 font ",8"
 set autoscale fix
 set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.08
