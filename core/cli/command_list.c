@@ -49,7 +49,8 @@ const struct irb_command irb_commands[] = {
      "(PNG, JPEG, ...) are compared as they are shown; all others hold radiance, which SSIM and\n"
      "LDR-FLIP see tone-mapped at an exposure from the reference. --max and --min bound the\n"
      "metrics by the values printed: the exit status is 1 where one does not hold, or is not\n"
-     "defined. --out DIR writes the maps: maps.exr, and a PNG of each in false colour.\n\n"
+     "defined. --out DIR writes the maps: maps.exr, a PNG of each in false colour, and\n"
+     "difference_x8.png: the difference of the images as they are shown, times 8.\n\n"
      "  irbench compare image.exr reference.exr\n"
      "  irbench compare image.exr reference.exr --layer indirect --format json\n"
      "  irbench compare image.exr reference.exr --max flip=0.05 --min ssim=0.98 --out maps\n",

@@ -201,6 +201,24 @@ static bool write_ssim(const char *folder, const struct irb_image *ssim, struct 
     return ok;
 }
 
+/* The difference that the field's figures print: of the images as they are shown, times 8 (Prutkin
+ * et al. 2012, figure 1). */
+static bool write_amplified(const char *folder, const struct irb_image *difference,
+                            struct irb_error *err)
+{
+    static const float factor = 8;
+    struct irb_image map;
+    if (!irb_image_create(&map, difference->width, difference->height, 3, err))
+        return false;
+    for (size_t i = 0; i < 3 * irb_image_pixels(&map); i++)
+        map.data[i] = factor * difference->data[i];
+    char *path = irb_asprintf("%s/difference_x8.png", folder);
+    bool ok = irb_png_write(path, &map, err);
+    free(path);
+    irb_image_destroy(&map);
+    return ok;
+}
+
 static bool write_pictures(const char *folder, const struct irb_comparison *c,
                            struct irb_error *err)
 {
@@ -208,6 +226,7 @@ static bool write_pictures(const char *folder, const struct irb_comparison *c,
     double level = 100 * sqrt(c->eps); /* the mean reference */
     double bright = irb_value_percentile(&relmse, NULL, 1, 0.99);
     return write_colours(folder, "difference", &c->difference, level, err) &&
+           write_amplified(folder, &c->displayed_difference, err) &&
            write_colours(folder, "relmse", relmse, bright > 0 ? bright : 1, err) &&
            write_colours(folder, "flip", &c->flip, 1, err) &&
            write_colours(folder, "ldr_flip", &c->ldr_flip, 1, err) &&

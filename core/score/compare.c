@@ -107,6 +107,7 @@ static bool score_displayed(struct irb_comparison *out, const struct irb_image *
     struct irb_displayed a = {0}, b = {0};
     bool ok = irb_display(test, out->exposure, &a, err) &&
               irb_display(reference, out->exposure, &b, err) &&
+              irb_displayed_difference(&a, &b, &out->displayed_difference, err) &&
               irb_ssim(&a.luma, &b.luma, NULL, &out->ssim, &out->values[IRB_COMPARE_ssim], err) &&
               score_ldr_flip(out, &a.linear, &b.linear, threads, err);
     irb_displayed_destroy(&a);
@@ -144,4 +145,5 @@ void irb_comparison_destroy(struct irb_comparison *comparison)
     irb_image_destroy(&comparison->flip);
     irb_image_destroy(&comparison->ldr_flip);
     irb_image_destroy(&comparison->ssim);
+    irb_image_destroy(&comparison->displayed_difference);
 }

@@ -47,6 +47,7 @@ struct irb_comparison {
     /* maps of the image's size; owned. Those of FLIP are in [0,1]; flip is 0 where not defined. */
     struct irb_image difference; /* v - r, 3 channels */
     struct irb_image relmse, flip, ldr_flip, ssim;
+    struct irb_image displayed_difference; /* as irb_displayed_difference() */
 };
 
 /* 3-channel images; IRB_E_INPUT where their sizes differ. display_referred: linear values that a

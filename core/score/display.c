@@ -80,3 +80,13 @@ void irb_displayed_destroy(struct irb_displayed *displayed)
     irb_image_destroy(&displayed->linear);
     irb_image_destroy(&displayed->luma);
 }
+
+bool irb_displayed_difference(const struct irb_displayed *a, const struct irb_displayed *b,
+                              struct irb_image *out, struct irb_error *err)
+{
+    if (!irb_image_create(out, a->linear.width, a->linear.height, 3, err))
+        return false;
+    for (size_t i = 0; i < 3 * irb_image_pixels(out); i++)
+        out->data[i] = fabsf(srgb_encode(a->linear.data[i]) - srgb_encode(b->linear.data[i]));
+    return true;
+}

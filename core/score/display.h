@@ -21,4 +21,9 @@ bool irb_display(const struct irb_image *radiance, double exposure, struct irb_d
                  struct irb_error *err);
 void irb_displayed_destroy(struct irb_displayed *displayed);
 
+/* |a - b| of the sRGB-encoded values, 3 channels in [0,1]: what an eye at the display would
+ * subtract. *out is created with the images' size, which is the same. */
+bool irb_displayed_difference(const struct irb_displayed *a, const struct irb_displayed *b,
+                              struct irb_image *out, struct irb_error *err);
+
 #endif

@@ -76,7 +76,7 @@ check "a layer" "$IRBENCH" compare maps/maps.exr maps/maps.exr --layer flip --ma
 check "maps where FLIP is not defined" "$IRBENCH" compare a.exr black.exr --out dark/er
 checks=$((checks + 1))
 if "$IRBENCH" --version | grep -q images; then
-    for name in difference relmse flip ldr_flip dissimilarity; do
+    for name in difference difference_x8 relmse flip ldr_flip dissimilarity; do
         [ -s "maps/$name.png" ] || {
             echo "FAIL: no maps/$name.png"
             failures=$((failures + 1))

@@ -66,6 +66,30 @@ static void display_referred_images_are_clamped(void **state)
     irb_image_destroy(&image);
 }
 
+static void differences_are_of_encoded_values(void **state)
+{
+    (void)state;
+    struct irb_image a, b, difference;
+    struct irb_displayed shown[2];
+    REQUIRE_OK(irb_image_create(&a, 1, 1, 3, &err));
+    REQUIRE_OK(irb_image_create(&b, 1, 1, 3, &err));
+    const float values[2][3] = {{0.25f, 0.002f, 0.7f}, {0.5f, 0.3f, 0.7f}};
+    for (int c = 0; c < 3; c++) {
+        a.data[c] = values[0][c];
+        b.data[c] = values[1][c];
+    }
+    REQUIRE_OK(irb_display(&a, 0, &shown[0], &err));
+    REQUIRE_OK(irb_display(&b, 0, &shown[1], &err));
+    REQUIRE_OK(irb_displayed_difference(&shown[0], &shown[1], &difference, &err));
+    for (int c = 0; c < 3; c++)
+        REQUIRE_NEAR(difference.data[c], fabs(encode(values[0][c]) - encode(values[1][c])), 2e-6);
+    irb_image_destroy(&difference);
+    for (int i = 0; i < 2; i++)
+        irb_displayed_destroy(&shown[i]);
+    irb_image_destroy(&a);
+    irb_image_destroy(&b);
+}
+
 static void bad_input_is_refused(void **state)
 {
     (void)state;
@@ -83,6 +107,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_previews),
         cmocka_unit_test(display_referred_images_are_clamped),
+        cmocka_unit_test(differences_are_of_encoded_values),
         cmocka_unit_test(bad_input_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
