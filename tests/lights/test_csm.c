@@ -7,6 +7,7 @@
  */
 #include "tests/support/compare.h"
 #include "tests/lights/csm_fixture.h"
+#include "tests/support/lens.h"
 
 static struct irb_gl *gl;
 
@@ -73,6 +74,74 @@ static void test_step(void **state)
             print_message("M = %2d, %s: |f - H| <= %.3f from 0.1 on\n", orders[m],
                           irb_csm_prefilter_names[prefilter], largest);
         }
+    csm_destroy(&f);
+}
+
+/* Mean square over a period of what the damped series leaves of the step, by Parseval's theorem:
+ * its orders k have the amplitudes 2/c_k exp(-damping (k/M)^2), the step's own 2/c_k. */
+static double series_rest(int order, double damping)
+{
+    double rest = 0.25;
+    for (int k = 1; k <= order; k++) {
+        const double whole = 2 / (M_PI * (2 * k - 1));
+        const double kept = whole * exp(-damping * k * k / order / order);
+        rest += kept * kept / 2 - whole * kept;
+    }
+    return rest;
+}
+
+static double metre(const void *user, int map, int face, int x, int y, const double d[3])
+{
+    (void)user, (void)map, (void)face, (void)x, (void)y, (void)d;
+    return 1;
+}
+
+/* What order M leaves of the step over one period of z - d: the root mean square as Parseval has
+ * it; the overshoot, 0.1366 of M = 1 and the Wilbraham-Gibbs constant 0.0895 in the limit; the
+ * width from 0.1 to 0.9, where Si(2 pi M t) = 0.4 pi: 0.443/M. Damping takes the overshoot away and
+ * makes the step wider. */
+static void test_series(void **state)
+{
+    (void)state;
+    enum { STEPS = 2048 };
+    static struct csm_query queries[STEPS];
+    struct csm_fixture f;
+    double over[17][2] = {{0}}, width[17][2] = {{0}};
+    csm_create(&f, gl, IRB_RASTER_PARABOLOID, SIZE, 1, metre, NULL);
+    for (int damped = 0; damped < 2; damped++)
+        for (int m = 0; m < ORDERS; m++) {
+            const int order = orders[m];
+            double square = 0;
+            f.settings.damping = (float)damped;
+            csm_make(&f, order, IRB_CSM_MIP);
+            for (int i = 0; i < STEPS; i++) {
+                const double t = (i + 0.5) / STEPS - 0.5;
+                queries[i] = (struct csm_query){
+                    .q = {0, 0, 1}, .kind = CSM_LIT, .side = 1, .z = (float)(f.csm->span - t)};
+            }
+            float *found = csm_ask(&f, queries, STEPS);
+            for (int i = 0; i < STEPS; i++) {
+                const double error = found[i] - (i >= STEPS / 2);
+                square += error * error / STEPS;
+                over[order][damped] = fmax(over[order][damped], found[i] - 1);
+                width[order][damped] += (found[i] > 0.1 && found[i] < 0.9) / (double)STEPS;
+            }
+            free(found);
+            print_message("M = %2d, damping %d: rms %.3f (Parseval %.3f), overshoot %.4f, "
+                          "10-90 %% %.4f\n",
+                          order, damped, sqrt(square), sqrt(series_rest(order, damped)),
+                          over[order][damped], width[order][damped]);
+            REQUIRE_NEAR(sqrt(square), sqrt(series_rest(order, damped)), 1e-3);
+        }
+    REQUIRE_NEAR(over[1][0], 2 / M_PI - 0.5, 1e-3);
+    REQUIRE_NEAR(over[16][0], 0.0895, 1e-3);
+    for (int m = 0; m < ORDERS; m++) {
+        const int order = orders[m];
+        REQUIRE_CMP(over[order][1], <, over[order][0] / 4);
+        REQUIRE_CMP(width[order][1], >, width[order][0]);
+        if (order >= 4)
+            REQUIRE_NEAR(width[order][0], 0.443 / order, 2.0 / STEPS + 0.005 / order);
+    }
     csm_destroy(&f);
 }
 
@@ -233,18 +302,6 @@ static double stage_distance(const void *user, int map, int face, int x, int y, 
         return INFINITY;
     double h = s->height, r = hypot(d[0], d[1]) / d[2] * h;
     return (r < s->radius ? h : plane) / d[2];
-}
-
-/* Area that two circles share. */
-static double lens(double a, double b, double distance)
-{
-    if (distance >= a + b)
-        return 0;
-    if (distance <= fabs(a - b))
-        return M_PI * fmin(a, b) * fmin(a, b);
-    double x = (distance * distance + a * a - b * b) / (2 * distance);
-    double y = sqrt(fmax(0, a * a - x * x));
-    return a * a * acos(x / a) + b * b * acos((distance - x) / b) - distance * y;
 }
 
 /* Share of the light seen from x on the plane: the disc, projected onto the light's plane through
@@ -418,10 +475,10 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), argc > 2 ? argv[2] : NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_step),        cmocka_unit_test(test_lit_surface),
-        cmocka_unit_test(test_blocker),     cmocka_unit_test(test_blocker_search),
-        cmocka_unit_test(test_soft_shadow), cmocka_unit_test(test_degenerate),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_step),           cmocka_unit_test(test_series),
+        cmocka_unit_test(test_lit_surface),    cmocka_unit_test(test_blocker),
+        cmocka_unit_test(test_blocker_search), cmocka_unit_test(test_soft_shadow),
+        cmocka_unit_test(test_degenerate),     cmocka_unit_test(test_refusals),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);
