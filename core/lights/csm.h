@@ -34,7 +34,8 @@ extern const char *const irb_csm_prefilter_names[]; /* "mip", "sat", NULL */
 
 /* Lengths `offset` and `search_offset` are in half widths 1/(2M) of the series's step. */
 struct irb_csm_settings {
-    float offset;        /* the receiver is taken for so much nearer in the shadow test */
+    float offset;        /* the receiver is taken for so much nearer in the shadow test: best, more
+                            than its own depths vary by within a footprint */
     float scale;         /* the series is multiplied by this and cut at 1: at offset 0 a lit surface
                             reads f(z, z) = 1/2, and 2 puts that right (Annen et al. 2007) */
     float search_offset; /* likewise in the search for blockers: keeps the receiver out of it */

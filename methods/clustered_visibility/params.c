@@ -64,7 +64,8 @@ const struct irb_option cv_options[] = {
     IRB_OPTION_FLOAT(
         P, offset, 0, 0, 4, "",
         "receivers are taken for so much nearer, in halves 1/(2M) of the series's step. "
-        "Orders of 8 and more do best with offset 1, scale 1, damping 1",
+        "Orders M of 8 and more do best with offset and search_offset M/8, a sixteenth of the "
+        "depths' range, scale 1, damping 1",
         "Annen et al. 2007; value: ours"),
     IRB_OPTION_FLOAT(P, scale, 2, 0.1, 8, "",
                      "the series's sum is multiplied by this and cut at 1: without offset, a lit "
