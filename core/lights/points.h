@@ -5,7 +5,8 @@
  * object's transform and animated vertices.
  *
  *     AREA          random triangles, each as likely as its area at rest, and a uniformly random
- *                   point on each (Ritschel et al. 2008)
+ *                   point on each (Ritschel et al. 2008); or as likely as weights of the caller's
+ *                   (core/lights/point_need.h)
  *     TESSELLATION  algorithm 5.2 of the thesis over every triangle
  *
  * Points stand in the order of objects, and of triangles within them; those of one triangle in the
@@ -33,13 +34,17 @@ enum irb_points_kind { IRB_POINTS_AREA, IRB_POINTS_TESSELLATION };
 extern const char *const irb_points_kind_names[]; /* "area", "tessellation", NULL */
 
 struct irb_points_desc {
-    int kind;            /* enum irb_points_kind */
-    int count;           /* AREA: points, >= 0 */
-    uint64_t seed;       /* AREA */
-    float f_min, f_max;  /* TESSELLATION: f[min,max] of eqs 5.3 and 5.4 */
-    int smoothstep;      /* TESSELLATION: order of the polynomial, 3 or 5 */
-    int64_t most_bytes;  /* bound on the points' memory; 0: IRB_POINTS_MOST_BYTES */
-    int64_t chunk_bytes; /* of one buffer; 0: IRB_POINTS_CHUNK_BYTES, which is the most */
+    int kind;             /* enum irb_points_kind */
+    int count;            /* AREA: points, >= 0 */
+    uint64_t seed;        /* AREA */
+    const float *weights; /* AREA: NULL, or borrowed until the points are made: a weight for each of
+                             the scene's triangles, finite and >= 0, that stands for its area. The
+                             k-th point of a triangle then lies at the same place of it whatever the
+                             weights are, so that points stay where these change little */
+    float f_min, f_max;   /* TESSELLATION: f[min,max] of eqs 5.3 and 5.4 */
+    int smoothstep;       /* TESSELLATION: order of the polynomial, 3 or 5 */
+    int64_t most_bytes;   /* bound on the points' memory; 0: IRB_POINTS_MOST_BYTES */
+    int64_t chunk_bytes;  /* of one buffer; 0: IRB_POINTS_CHUNK_BYTES, which is the most */
 };
 
 enum { IRB_POINTS_CHUNK_BYTES = 64 << 20, IRB_POINTS_MOST_BYTES = 1 << 30 };
@@ -64,7 +69,7 @@ struct irb_point_list {
     struct irb_points_run *runs; /* owned; objects without points have none */
     int run_count;
     float *density; /* owned; points that each triangle has before alpha masks; AREA: is expected to
-                       have, count * its share of the area */
+                       have, count * its share of the area or weights */
     double area;    /* of all objects at rest, m2 */
 };
 

@@ -34,6 +34,16 @@ static double scene_area(const struct irb_scene *scene)
     return sum;
 }
 
+/* What AREA has to draw from. */
+static double scene_weight(const struct irb_scene *scene, const struct irb_points_desc *desc)
+{
+    double sum = 0;
+    for (int o = 0; o < scene->object_count; o++)
+        for (uint32_t i = 0; i < scene->objects[o].triangle_count; i++)
+            sum += irb_points_weight(scene, desc, scene->objects[o].first_triangle + i);
+    return sum;
+}
+
 static bool check_desc(const struct irb_points_desc *desc, struct irb_error *err)
 {
     if (desc->kind == IRB_POINTS_TESSELLATION)
@@ -53,7 +63,7 @@ bool irb_points_count(const struct irb_scene *scene, const struct irb_points_des
     if (!check_desc(desc, err))
         return false;
     if (desc->kind == IRB_POINTS_AREA) {
-        *count = scene_area(scene) > 0 ? (uint64_t)desc->count : 0;
+        *count = scene_weight(scene, desc) > 0 ? (uint64_t)desc->count : 0;
         return *count <= sink.most || refuse(desc, "", (double)*count, err);
     }
     if (!irb_points_tessellate(scene, desc, &sink, NULL, err))

@@ -27,6 +27,9 @@ bool irb_points_tessellate(const struct irb_scene *scene, const struct irb_point
 double irb_points_tessellate_estimate(const struct irb_scene *scene,
                                       const struct irb_points_desc *desc);
 
+/* What AREA draws a triangle in proportion to; 0 without area. */
+double irb_points_weight(const struct irb_scene *scene, const struct irb_points_desc *desc,
+                         uint32_t triangle);
 /* sink->most random points, and their density. IRB_E_MEMORY. */
 bool irb_points_draw(const struct irb_scene *scene, const struct irb_points_desc *desc,
                      struct irb_points_sink *sink, float *density, struct irb_error *err);

@@ -3,16 +3,15 @@
  * Imperfect shadow maps: one-bounce light from virtual point lights, each with a coarse shadow map
  * splatted from points of the scene; interleaved sampling with a geometry-aware filter.
  *
- * Does not: adapt the points to the view (Ritschel et al. 2011: every map has points of the same
- * density), nor bounce light twice.
+ * Points may adapt to the lights (Ritschel et al. 2011; core/lights/point_need.h): by whole
+ * triangles, and for all maps alike. Does not: make points for the view but through its lights, nor
+ * bounce light twice.
  */
 #include "methods/method.h"
-#include "core/frame/shadow_term.h"
-#include "methods/ism/objects.h"
-#include "methods/method.h"
-#include "methods/ism/objects.h"
 
+#include "core/frame/shadow_term.h"
 #include "core/sampling/sobol.h"
+#include "methods/ism/objects.h"
 
 #include <stdlib.h>
 
@@ -274,14 +273,17 @@ static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
 }
 
 /* Area points are drawn once for a sequence, before any stage, or anew in every frame, in a stage
- * of theirs. */
-static bool prepare_points(struct ism_objects *o, const struct irb_frame_inputs *in,
+ * of theirs; adaptive ones after the lights. */
+static bool prepare_points(struct ism_objects *o, const struct irb_frame_inputs *in, bool sampled,
                            struct irb_error *err)
 {
     const struct ism_params *p = in->params;
-    if (!p->redraw_points || p->points != ISM_AREA)
+    if (sampled != ism_adapts_points(p))
+        return true;
+    if (!sampled && (!p->redraw_points || p->points != ISM_AREA))
         return ism_objects_prepare_points(o, p, in->scene, in->seed, err);
-    const uint64_t seed = in->seed ^ (uint64_t)(uint32_t)in->frame << 32;
+    const uint64_t frame = p->redraw_points ? (uint32_t)in->frame : 0;
+    const uint64_t seed = in->seed ^ frame << 32;
     irb_timer_begin(in->timer, STAGE_POINTS);
     bool ok = ism_objects_prepare_points(o, p, in->scene, seed, err);
     irb_timer_end(in->timer);
@@ -297,11 +299,12 @@ static bool ism_render_frame(void *user, const struct irb_frame_inputs *in,
     struct coverage coverage = {0};
 
     *out = (struct irb_frame_output){.irradiance = o->irradiance};
-    if (!ism_objects_prepare(o, p, in->rsm->resolution, err) || !prepare_points(o, in, err))
+    if (!ism_objects_prepare(o, p, in->rsm->resolution, err) || !prepare_points(o, in, false, err))
         return false;
     irb_timer_begin(in->timer, STAGE_SAMPLE);
     bool ok = sample(o, in, err);
     irb_timer_end(in->timer);
+    ok = ok && prepare_points(o, in, true, err);
     if (p->visibility == ISM_IMPERFECT)
         ok = ok && build_maps(o, in, &coverage, err);
     return ok && light_tiles(o, in, err) && report(state, in, &coverage, out, err);

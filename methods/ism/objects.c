@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/ism/objects.h"
 
+#include "core/lights/point_need.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +55,7 @@ void ism_objects_destroy(struct ism_objects *o)
     irb_interleave_destroy(o->interleave);
     destroy_lights(o);
     irb_points_destroy(o->points);
+    free(o->weights);
     irb_ism_destroy(o->maps);
     irb_raster_maps_destroy(o->raster);
     irb_shade_destroy(o->shade);
@@ -106,12 +109,31 @@ static bool same_points(const struct irb_points_desc *a, const struct irb_points
            a->f_min == b->f_min && a->f_max == b->f_max && a->smoothstep == b->smoothstep;
 }
 
+/* points_desc is left as no other points have it, so that none take these for theirs. */
+static bool make_adaptive_points(struct ism_objects *o, const struct ism_params *p,
+                                 const struct irb_scene_gl *scene, struct irb_points_desc desc,
+                                 struct irb_error *err)
+{
+    const struct irb_virtual_lights lights = irb_vpl_set_view(o->lights);
+    irb_points_destroy(o->points);
+    o->points = NULL;
+    o->points_desc = (struct irb_points_desc){.count = -1};
+    if (!o->weights &&
+        !(o->weights = malloc(((size_t)scene->scene->triangle_count + 1) * sizeof *o->weights)))
+        return irb_fail(err, IRB_E_MEMORY, "ism: out of memory");
+    desc.weights = o->weights;
+    return irb_point_weights(scene->scene, &lights, p->adaptive_points, o->weights, err) &&
+           (o->points = irb_points_create(o->gl, scene, &desc, err));
+}
+
 bool ism_objects_prepare_points(struct ism_objects *o, const struct ism_params *p,
                                 const struct irb_scene_gl *scene, uint64_t seed,
                                 struct irb_error *err)
 {
     const struct irb_points_desc desc = points_desc_of(p, seed);
     const bool wanted = p->visibility == ISM_IMPERFECT && p->points != ISM_DYNAMIC;
+    if (wanted && ism_adapts_points(p))
+        return make_adaptive_points(o, p, scene, desc, err);
     if (wanted && o->points && same_points(&desc, &o->points_desc))
         return true;
     irb_points_destroy(o->points);

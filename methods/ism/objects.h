@@ -24,6 +24,7 @@ struct ism_objects {
     int rsm_resolution;                 /* that the three above are made for */
     struct irb_points *points;          /* NULL without maps, and for dynamic points */
     struct irb_points_desc points_desc; /* of `points` */
+    float *weights;                     /* of adaptive points, a float a triangle; or NULL */
     struct irb_ism *maps;               /* NULL until there are to be some; likewise the next */
     struct irb_raster_maps *raster;
     struct irb_shade *shade;
@@ -39,7 +40,8 @@ bool ism_objects_resize(struct ism_objects *objects, int width, int height, stru
  */
 bool ism_objects_prepare(struct ism_objects *objects, const struct ism_params *params,
                          int rsm_resolution, struct irb_error *err);
-/* Likewise the points. `seed`: of area points. */
+/* Likewise the points. `seed`: of area points. Adaptive ones are made anew for the lights as they
+ * are. */
 bool ism_objects_prepare_points(struct ism_objects *objects, const struct ism_params *params,
                                 const struct irb_scene_gl *scene, uint64_t seed,
                                 struct irb_error *err);

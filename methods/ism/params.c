@@ -48,6 +48,11 @@ const struct irb_option ism_options[] = {
                    RITSCHEL_2008 "; the value: as many as the thesis's 512 maps take, 6.2"),
     IRB_OPTION_BOOL(struct ism_params, redraw_points, 0, "area: draw other points in every frame",
                     RITSCHEL_2008),
+    IRB_OPTION_FLOAT(struct ism_params, adaptive_points, 0, 0, 0.95, "",
+                     "area: share of the points that goes by how large triangles look from the "
+                     "frame's lights (mean form factor, no occlusion), the rest by area; made in "
+                     "every frame; for splat_size surface",
+                     "after " RITSCHEL_2011 "; the measure: ours"),
     IRB_OPTION_FLOAT(struct ism_params, f_min, 5, 1, 64, "",
                      "tessellation, dynamic: least factor of an edge or a triangle",
                      "thesis eqs 5.3-5.4, algorithm 5.2"),

@@ -25,6 +25,7 @@ struct ism_params {
     int points;     /* enum ism_points */
     int point_count;
     bool redraw_points;
+    float adaptive_points;
     float f_min, f_max;
     int smoothstep; /* enum ism_smoothstep */
     int splatter;   /* enum ism_splatter */
@@ -42,6 +43,12 @@ struct ism_params {
 };
 
 extern const struct irb_option ism_options[];
+
+/* Points are made in every frame, from its lights. */
+static inline bool ism_adapts_points(const struct ism_params *params)
+{
+    return params->points == ISM_AREA && params->adaptive_points > 0;
+}
 
 /* Side of a map, texels. */
 static inline int ism_map_side(const struct ism_params *params)

@@ -189,12 +189,13 @@ static void test_plate(void **state)
     make_plate(&f);
     static const char *const settings[][13] = {
         {"points", "area", "point_count", "500000"},
+        {"points", "area", "point_count", "100000", "adaptive_points", "0.9"},
         {"points", "area", "point_count", "500000", "splatter", "raster"},
         {"points", "tessellation", "f_min", "64", "f_max", "64"},
         {"points", "dynamic", "f_min", "64", "f_max", "64"},
         {"visibility", "exact-raster"}};
-    for (int k = 0; k < 5; k++)
-        check_plate(&f, settings[k], k < 4 ? 0.2 : 0.05);
+    for (int k = 0; k < 6; k++)
+        check_plate(&f, settings[k], k < 5 ? 0.2 : 0.05);
     fixture_frame_destroy(&f);
 }
 
@@ -212,17 +213,19 @@ static void test_same_bits(void **state)
         {"vpls", "64", "f_min", "1", "f_max", "8", "points", "tessellation"},
         {"vpls", "64", "f_min", "1", "f_max", "8", "points", "dynamic"},
         {"vpls", "64", "point_count", "20000", "importance", "bidirectional"},
+        {"vpls", "64", "point_count", "20000", "adaptive_points", "0.9"},
         {"vpls", "64", "point_count", "20000", "sequence", "random"},
         {"vpls", "64", "point_count", "20000", "redraw_points", "true"},
+        {"vpls", "64", "point_count", "20000", "redraw_points", "true", "adaptive_points", "0.5"},
         {"vpls", "64", "visibility", "exact-raster", "sequence", "random"}};
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < 10; k++) {
         struct irb_image one = render_with(ism, &f, settings[k], 5, 3, &out);
         struct irb_image two = render_with(ism, &f, settings[k], 5, 3, &out);
         struct irb_image next = render_with(ism, &f, settings[k], 5, 4, &out);
         struct irb_image other = render_with(ism, &f, settings[k], 6, 3, &out);
         size_t bytes = irb_image_pixels(&one) * 16;
         assert_memory_equal(one.data, two.data, bytes);
-        assert_int_equal(memcmp(one.data, next.data, bytes) != 0, k >= 5);
+        assert_int_equal(memcmp(one.data, next.data, bytes) != 0, k >= 6);
         assert_memory_not_equal(one.data, other.data, bytes);
         irb_image_destroy(&one);
         irb_image_destroy(&two);
@@ -252,11 +255,14 @@ static void test_changing_frames(void **state)
         {"vpls", "30", "visibility", "none"},
         {"visibility", "ism", "points", "dynamic", "f_min", "2", "f_max", "4"},
         {"points", "tessellation", "pull_push", "5"},
+        {"points", "area", "adaptive_points", "0.9", "vpls", "40"},
+        {"adaptive_points", "0"},
+        {"adaptive_points", "0.9", "points", "tessellation"},
         {"visibility", "exact-raster", "vpls", "20"},
         {"visibility", "ism", "points", "area", "importance", "flux", "clamp", "3"}};
     const char *all[64] = {0};
     int count = 0;
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 22; i++) {
         const bool dark = i % 2 == 1;
         for (int k = 0; i % 2 == 0 && frames[i / 2][k]; k += 2) {
             all[count++] = frames[i / 2][k];

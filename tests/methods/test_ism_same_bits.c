@@ -10,11 +10,12 @@
 extern const struct irb_method irb_method_ism;
 static const struct irb_method *const ism = &irb_method_ism;
 
-enum { VARIANTS = 5, WIDTH = 61, HEIGHT = 35, RESOLUTION = 48 };
+enum { VARIANTS = 6, WIDTH = 61, HEIGHT = 35, RESOLUTION = 48 };
 
 static const char *const variants[VARIANTS][3][2] = {
     {{"points", "area"}, {"splatter", "atomic"}, {"pull", "mean"}},
     {{"points", "area"}, {"splatter", "raster"}, {"pull", "median"}},
+    {{"points", "area"}, {"adaptive_points", "0.9"}, {"importance", "bidirectional"}},
     {{"points", "tessellation"}, {"splatter", "atomic"}, {"importance", "bidirectional"}},
     {{"points", "dynamic"}, {"interleave_n", "4"}, {"clamp", "30"}},
     {{"visibility", "exact-raster"}, {"interleave_n", "2"}, {"map_size", "32"}},
