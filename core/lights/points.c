@@ -13,16 +13,15 @@ static int64_t chunk_points(const struct irb_points_desc *desc)
     return points > 0 ? points : 1;
 }
 
-static bool create_chunk(struct irb_points *points, const struct irb_point *from, uint64_t first,
-                         uint64_t count, struct irb_error *err)
+static bool create_chunk(struct irb_points *points, struct irb_points_chunk *chunk,
+                         const struct irb_point *from, uint64_t first, uint64_t count,
+                         struct irb_error *err)
 {
     const struct irb_gl_api *api = &points->gl->api;
-    struct irb_points_chunk *chunk = &points->chunks[points->chunk_count];
     chunk->points = irb_buffer_create(points->gl, "points: chunk", (int64_t)(count * sizeof *from),
                                       from + first, err);
     if (!chunk->points)
         return false;
-    points->chunk_count++;
     points->bytes += chunk->points->bytes;
     chunk->first = (uint32_t)first;
     chunk->count = (uint32_t)count;
@@ -31,17 +30,23 @@ static bool create_chunk(struct irb_points *points, const struct irb_point *from
     return true;
 }
 
-static bool create_chunks(struct irb_points *points, const struct irb_point *from, uint64_t most,
+/* The last chunk first: the list gives up each one's memory once it is uploaded. */
+static bool create_chunks(struct irb_points *points, struct irb_point_list *list, uint64_t most,
                           struct irb_error *err)
 {
     const uint64_t chunks = (points->count + most - 1) / most;
     points->chunks = calloc((size_t)chunks + 1, sizeof *points->chunks);
     if (!points->chunks)
         return irb_fail(err, IRB_E_MEMORY, "points: out of memory");
-    for (uint64_t first = 0; first < points->count; first += most) {
-        const uint64_t rest = points->count - first;
-        if (!create_chunk(points, from, first, rest < most ? rest : most, err))
+    points->chunk_count = (int)chunks;
+    for (uint64_t i = chunks; i-- > 0;) {
+        const uint64_t first = i * most;
+        if (!create_chunk(points, &points->chunks[i], list->points, first, list->count - first,
+                          err))
             return false;
+        list->count = first;
+        struct irb_point *rest = realloc(list->points, (size_t)(first + 1) * sizeof *rest);
+        list->points = rest ? rest : list->points;
     }
     return true;
 }
@@ -78,9 +83,9 @@ struct irb_points *irb_points_create(struct irb_gl *gl, const struct irb_scene_g
     } else {
         irb_fail(err, IRB_E_MEMORY, "points: out of memory");
     }
-    bool ok =
-        points && points->density && check_texels(gl, most < list.count ? most : list.count, err) &&
-        create_chunks(points, list.points, most, err) && irb_gl_check(gl, "points: upload", err);
+    bool ok = points && points->density &&
+              check_texels(gl, most < list.count ? most : list.count, err) &&
+              create_chunks(points, &list, most, err) && irb_gl_check(gl, "points: upload", err);
     irb_point_list_destroy(&list);
     if (ok) {
         points->bytes += points->density->bytes;

@@ -186,6 +186,8 @@ static bool report(struct acrsm_state *s, const struct irb_frame_inputs *in,
     irb_output_statistic(out, "flux_gain", clusters.gain);
     if (acrsm_has_shadows(r))
         irb_output_statistic(out, "ism_coverage", coverage);
+    if (acrsm_has_shadows(r) && !r->dynamic_points)
+        irb_output_statistic(out, "point-bytes", (double)s->lighting.points->bytes);
     return true;
 }
 

@@ -263,6 +263,7 @@ static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
     irb_output_statistic(out, "vpls", o->lights->count);
     if (maps && o->points) {
         irb_output_statistic(out, "points", (double)o->points->count);
+        irb_output_statistic(out, "point-bytes", (double)o->points->bytes);
         irb_output_statistic(out, "splats", (double)o->points->count * (double)p->splat_factor);
     }
     if (maps) {

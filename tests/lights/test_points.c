@@ -407,6 +407,28 @@ static void test_refusals(void **state)
     irb_scene_destroy(scene);
 }
 
+/* The most points that the thesis asks for, in the built-in scene that has most: below the stated
+ * bound, counted without making them; above half a GiB, which says so. */
+static void test_most_memory(void **state)
+{
+    (void)state;
+    struct irb_error err = {0};
+    struct irb_scene *scene = fixture_scene("atrium");
+    struct irb_points_desc desc = tessellation_desc(16, 64, 3);
+    uint64_t count;
+    REQUIRE_OK(irb_points_count(scene, &desc, &count, &err));
+    const double mib =
+        ((double)count * sizeof(struct irb_point) + 4.0 * scene->triangle_count) / (1 << 20);
+    print_message("atrium f[16,64]: %llu points, %.1f MiB\n", (unsigned long long)count, mib);
+    REQUIRE_CMP(mib, <, 600);
+    REQUIRE_CMP(mib, >, 512);
+    desc.most_bytes = 512 << 20;
+    assert_false(irb_points_count(scene, &desc, &count, &err));
+    assert_int_equal(err.code, IRB_E_MEMORY);
+    REQUIRE_CONTAINS(err.message, "above the bound of 512.0 MiB");
+    irb_scene_destroy(scene);
+}
+
 /* ---- Alpha masks ---- */
 
 /* A quad whose texture lets the left half through: texels of alpha 0 and 255, four columns. */
@@ -527,6 +549,10 @@ static void test_follow(void **state)
         REQUIRE_OK(points);
         assert_int_equal(points->chunk_count, (int)((list.count + 124) / 125));
         REQUIRE_CMP(points->chunk_count, >, 4);
+        for (int i = 0; i < points->chunk_count; i++) {
+            REQUIRE_CMP(points->chunks[i].points->bytes, <=, 1000);
+            REQUIRE_NEAR(points->chunks[i].first, 125 * i, 0);
+        }
         REQUIRE_NEAR((double)points->bytes, 8.0 * (double)list.count + 4 * scene->triangle_count,
                      0);
         require_points(points, scene_gl, &list, scene->positions);
@@ -592,6 +618,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_few_points),
         cmocka_unit_test(test_degenerate),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_most_memory),
         cmocka_unit_test(test_masked),
         cmocka_unit_test(test_follow),
         cmocka_unit_test(test_runs),
