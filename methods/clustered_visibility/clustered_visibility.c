@@ -35,8 +35,8 @@ struct cv_state {
     int width, height;
     uint64_t seed;
     struct irb_texture *irradiance; /* RGBA32F, W/m2; share of the light that is in shadow */
-    struct cv_vals *vals;
-    struct cv_lighting lighting;
+    struct irb_vals *vals;
+    struct irb_val_lighting lighting;
     struct irb_interleave *interleave;
     struct irb_vpl_set *vpls;     /* made when the first frame shows the RSM's resolution */
     int rsm_resolution;           /* that `vpls` is made for */
@@ -49,8 +49,8 @@ static void cv_destroy(void *user)
     if (!s)
         return;
     irb_texture_destroy(s->irradiance);
-    cv_vals_destroy(s->vals);
-    cv_lighting_destroy(&s->lighting);
+    irb_vals_destroy(s->vals);
+    irb_val_lighting_destroy(&s->lighting);
     irb_interleave_destroy(s->interleave);
     irb_vpl_set_destroy(s->vpls);
     cv_pictures_destroy(s->pictures);
@@ -87,8 +87,8 @@ static void *cv_create(struct irb_gl *gl, const struct irb_scene_gl *scene, int 
         return NULL;
     }
     s->gl = gl;
-    cv_lighting_init(&s->lighting, gl);
-    s->vals = cv_vals_create(gl, err);
+    irb_val_lighting_init(&s->lighting, gl);
+    s->vals = irb_vals_create(gl, err);
     if (s->vals && cv_resize(s, width, height, err))
         return s;
     cv_destroy(s);
@@ -102,7 +102,7 @@ static bool cv_begin_sequence(void *user, const void *settings, uint64_t seed,
     (void)settings;
     (void)err;
     s->seed = seed;
-    cv_vals_forget(s->vals);
+    irb_vals_forget(s->vals);
     return true;
 }
 
@@ -128,7 +128,8 @@ static bool prepare_vpls(struct cv_state *s, int resolution, struct irb_error *e
         irb_vpl_set_destroy(s->vpls);
         cv_pictures_destroy(s->pictures);
         s->pictures = NULL;
-        s->vpls = irb_vpl_set_create(s->gl, IRB_VPL_IMPORTANCE, resolution, CV_MOST_VPLS, err);
+        s->vpls =
+            irb_vpl_set_create(s->gl, IRB_VPL_IMPORTANCE, resolution, IRB_VALS_MOST_LIGHTS, err);
         s->rsm_resolution = resolution;
     }
     if (s->vpls)
@@ -143,8 +144,8 @@ static bool cluster(struct cv_state *s, const struct irb_frame_inputs *in,
     IRB_STAGE(ok, in, STAGE_SAMPLE, irb_vpl_set_sample(s->vpls, in->rsm, r->vpls, r->first, err));
     const struct irb_virtual_lights vpls = irb_vpl_set_view(s->vpls);
     IRB_STAGE(ok, in, STAGE_CLUSTER,
-              cv_vals_cluster(s->vals, &vpls, &r->clustering, err) &&
-                  cv_vals_order(s->vals, &vpls, r->clustering.tiles, err));
+              irb_vals_cluster(s->vals, &vpls, &r->clustering, err) &&
+                  irb_vals_order(s->vals, &vpls, r->clustering.tiles, err));
     return ok;
 }
 
@@ -152,21 +153,21 @@ static bool cluster(struct cv_state *s, const struct irb_frame_inputs *in,
 static bool light(struct cv_state *s, const struct irb_frame_inputs *in,
                   const struct cv_resolved *r, struct irb_error *err)
 {
-    struct cv_lighting *l = &s->lighting;
-    const struct cv_lighting_settings *settings = &r->lighting;
+    struct irb_val_lighting *l = &s->lighting;
+    const struct irb_val_lighting_settings *settings = &r->lighting;
     const int vals = s->vals->vpls ? r->clustering.vals : 0;
-    struct cv_batch batch = {.count = -1};
+    struct irb_val_batch batch = {.count = -1};
     bool ok = true;
     IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(s->interleave, in->gbuffer, err));
-    while (ok && cv_lighting_next(l, settings, vals, &batch)) {
+    while (ok && irb_val_lighting_next(l, settings, vals, &batch)) {
         if (settings->visibility && batch.count > 0) {
             IRB_STAGE(ok, in, STAGE_MAPS,
-                      cv_lighting_maps(l, in->scene, s->vals, settings, &batch, err));
+                      irb_val_lighting_maps(l, in->scene, s->vals, settings, &batch, err));
             IRB_STAGE(ok, in, STAGE_BASIS, irb_csm_basis(l->csm, l->maps, &settings->csm, err));
             IRB_STAGE(ok, in, STAGE_PREFILTER, irb_csm_prefilter(l->csm, err));
         }
         IRB_STAGE(ok, in, STAGE_LIGHT,
-                  cv_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
+                  irb_val_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
     }
     IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(s->interleave, err));
     IRB_STAGE(
@@ -178,9 +179,9 @@ static bool light(struct cv_state *s, const struct irb_frame_inputs *in,
 /* Outside the stages: the report is no part of the method's cost. */
 static bool report(struct cv_state *s, struct irb_frame_output *out, struct irb_error *err)
 {
-    struct cv_statistics statistics;
-    if (!cv_vals_statistics(s->vals, &statistics, err) ||
-        !cv_lighting_lost(&s->lighting, s->interleave, &out->lost_energy, err))
+    struct irb_vals_statistics statistics;
+    if (!irb_vals_statistics(s->vals, &statistics, err) ||
+        !irb_val_lighting_lost(&s->lighting, s->interleave, &out->lost_energy, err))
         return false;
     irb_output_statistic(out, "vpls", s->vpls->count);
     irb_output_statistic(out, "vals", statistics.in_use);
@@ -223,7 +224,7 @@ static bool cv_render_frame(void *user, const struct irb_frame_inputs *in,
     *out = (struct irb_frame_output){.irradiance = s->irradiance};
     cv_params_resolve(in->params, irb_scene_diagonal(in->scene->scene), s->seed, &r);
     if (!prepare_interleave(s, r.interleave, err) || !prepare_vpls(s, in->rsm->resolution, err) ||
-        !cv_lighting_prepare(&s->lighting, s->interleave, &r.lighting, r.clustering.vals, err))
+        !irb_val_lighting_prepare(&s->lighting, s->interleave, &r.lighting, r.clustering.vals, err))
         return false;
     r.clustering.tiles = s->vpls->tiles;
     const bool ok = cluster(s, in, &r, err) && light(s, in, &r, err) && report(s, out, err);

@@ -11,11 +11,11 @@ static const char *const map_sizes[] = {"64", "128", "256", "512", NULL};
 #define P struct cv_params
 const struct irb_option cv_options[] = {
     IRB_OPTION_INT(
-        P, vpls, 512, 1, CV_MOST_VPLS, "",
+        P, vpls, 512, 1, IRB_VALS_MOST_LIGHTS, "",
         "virtual point lights, drawn from the RSM by flux, the same Halton points in each "
         "frame; 512 are some 57 for every tile of 3 x 3",
         "Dong et al. 2009: hundreds to thousands; value: ours"),
-    IRB_OPTION_INT(P, vals, 16, 1, CV_MOST_VALS, "",
+    IRB_OPTION_INT(P, vals, 16, 1, IRB_VALS_MOST, "",
                    "k: clusters of the VPLs, which are virtual area lights with a shadow map each",
                    "thesis 3.2.5; value: ours"),
     IRB_OPTION_FLOAT(P, w_x, 1, 0, 1e6, "", "weight of the distance from VPL to VAL",
@@ -32,15 +32,15 @@ const struct irb_option cv_options[] = {
     IRB_OPTION_INT(P, iterations, 64, 1, 1024, "",
                    "most iterations of k-means, which ends when no VPL changes its VAL",
                    "thesis 3.2.5: until convergence; bound: ours"),
-    IRB_OPTION_ENUM(P, start, CV_RESTART, cv_start_names,
+    IRB_OPTION_ENUM(P, start, IRB_VALS_RESTART, irb_vals_start_names,
                     "k-means starts from the first k VPLs in every frame, or from the VALs of the "
                     "frame before, of which those that have lost their VPLs stay away",
                     "thesis 3.2.5, figure 3.9"),
-    IRB_OPTION_ENUM(P, extent, CV_EXTENT_MOMENT, cv_extent_names,
+    IRB_OPTION_ENUM(P, extent, IRB_VALS_EXTENT_MOMENT, irb_vals_extent_names,
                     "w_light of eq. 3.2: radius of the disc with the second moment of the VAL's "
                     "VPLs, or the distance to the farthest",
                     "thesis eq. 3.2; ours"),
-    IRB_OPTION_ENUM(P, centre, CV_CENTRE_LIFTED, cv_centre_names,
+    IRB_OPTION_ENUM(P, centre, IRB_VALS_CENTRE_LIFTED, irb_vals_centre_names,
                     "where a VAL's shadow map stands: at the mean of its VPLs, which lies inside "
                     "round surfaces, whose own shadow then covers all; lifted to the highest VPL, "
                     "which on flat ones is the same; or at the VPL nearest to the mean",
@@ -113,23 +113,23 @@ static unsigned first_point(uint64_t seed, int samples)
     return (unsigned)((seed * (uint64_t)samples) & ((1u << 30) - 1));
 }
 
-static struct cv_cluster_settings clustering_of(const struct cv_params *p, float diagonal)
+static struct irb_vals_settings clustering_of(const struct cv_params *p, float diagonal)
 {
     const float unit = p->metric_unit == UNIT_BBOX && diagonal > 0 ? diagonal : 1;
-    return (struct cv_cluster_settings){
+    return (struct irb_vals_settings){
         .vals = p->vals,
         .weight_distance = p->w_x / unit,
         .weight_angle = p->w_a,
         .iterations = p->iterations,
-        .start = (enum cv_start)p->start,
-        .extent = (enum cv_extent)p->extent,
-        .centre = (enum cv_centre)p->centre,
+        .start = (enum irb_vals_start)p->start,
+        .extent = (enum irb_vals_extent)p->extent,
+        .centre = (enum irb_vals_centre)p->centre,
     };
 }
 
-static struct cv_lighting_settings lighting_of(const struct cv_params *p, float diagonal)
+static struct irb_val_lighting_settings lighting_of(const struct cv_params *p, float diagonal)
 {
-    return (struct cv_lighting_settings){
+    return (struct irb_val_lighting_settings){
         .visibility = p->visibility == VISIBILITY_CLUSTERED,
         .projection = (enum irb_raster_projection)p->projection,
         .size = LEAST_MAP << p->map_size,

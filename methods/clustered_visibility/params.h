@@ -8,8 +8,8 @@
 
 #include "core/base/option.h"
 #include "core/frame/interleave.h"
-#include "methods/clustered_visibility/lighting.h"
-#include "methods/clustered_visibility/vals.h"
+#include "core/lights/val_lighting.h"
+#include "core/lights/vals.h"
 
 struct cv_params {
     int vpls, vals;
@@ -29,8 +29,8 @@ extern const struct irb_option cv_options[];
 struct cv_resolved {
     int vpls;
     unsigned first; /* index of the first Halton point */
-    struct cv_cluster_settings clustering;
-    struct cv_lighting_settings lighting;
+    struct irb_vals_settings clustering;
+    struct irb_val_lighting_settings lighting;
     int interleave;      /* tiles a side */
     float depth, cosine; /* thresholds of the filter: m, 1 */
 };

@@ -75,7 +75,7 @@ static void dispatch(const struct cv_pictures *p, const struct irb_texture *targ
 }
 
 /* What the light lights, dark, and the VPLs on it. */
-static bool draw_vals(struct cv_pictures *p, const struct irb_rsm *rsm, const struct cv_vals *vals,
+static bool draw_vals(struct cv_pictures *p, const struct irb_rsm *rsm, const struct irb_vals *vals,
                       struct irb_error *err)
 {
     const struct irb_gl_api *api = &p->gl->api;
@@ -131,7 +131,7 @@ static bool draw_basis(struct cv_pictures *p, const struct irb_csm *csm, struct 
     return true;
 }
 
-bool cv_pictures_draw(struct cv_pictures *p, const struct irb_rsm *rsm, const struct cv_vals *vals,
+bool cv_pictures_draw(struct cv_pictures *p, const struct irb_rsm *rsm, const struct irb_vals *vals,
                       const struct irb_texture *irradiance, const struct irb_csm *csm,
                       struct irb_error *err)
 {

@@ -9,7 +9,7 @@
 #include "core/frame/rsm.h"
 #include "core/frame/shadow_term.h"
 #include "core/lights/csm.h"
-#include "methods/clustered_visibility/vals.h"
+#include "core/lights/vals.h"
 
 struct cv_pictures {
     struct irb_gl *gl;        /* borrowed */
@@ -27,7 +27,7 @@ void cv_pictures_destroy(struct cv_pictures *pictures);
 
 /* irradiance: alpha is the share. csm: of the last batch, or NULL. */
 bool cv_pictures_draw(struct cv_pictures *pictures, const struct irb_rsm *rsm,
-                      const struct cv_vals *vals, const struct irb_texture *irradiance,
+                      const struct irb_vals *vals, const struct irb_texture *irradiance,
                       const struct irb_csm *csm, struct irb_error *err);
 
 #endif

@@ -367,7 +367,7 @@ static struct irb_image light_in_batches(const struct fixture_frame *f, int capa
     struct irb_error err = {0};
     struct irb_vpl_set *set = irb_vpl_set_create(gl, IRB_VPL_IMPORTANCE, 64, VPLS, &err);
     struct irb_interleave *il = irb_interleave_create(gl, 16, 12, 1, 1, &err);
-    struct cv_vals *vals = cv_vals_create(gl, &err);
+    struct irb_vals *vals = irb_vals_create(gl, &err);
     REQUIRE_OK(set && il && vals);
     REQUIRE_OK(irb_vpl_set_sample(set, f->rsm, VPLS, 0, &err));
     const struct irb_virtual_lights vpls = irb_vpl_set_view(set);
@@ -375,22 +375,22 @@ static struct irb_image light_in_batches(const struct fixture_frame *f, int capa
     struct cv_resolved r;
     cv_params_resolve(params, irb_scene_diagonal(f->scene), 0, &r);
     r.lighting.size = 64;
-    REQUIRE_OK(cv_vals_cluster(vals, &vpls, &r.clustering, &err));
-    REQUIRE_OK(cv_vals_order(vals, &vpls, 1, &err));
+    REQUIRE_OK(irb_vals_cluster(vals, &vpls, &r.clustering, &err));
+    REQUIRE_OK(irb_vals_order(vals, &vpls, 1, &err));
     REQUIRE_OK(irb_interleave_split(il, f->gbuffer, &err));
-    struct cv_lighting l;
-    struct cv_batch batch = {.count = -1};
-    cv_lighting_init(&l, gl);
-    REQUIRE_OK(cv_lighting_prepare(&l, il, &r.lighting, capacity, &err));
-    for (*batches = 0; cv_lighting_next(&l, &r.lighting, VALS, &batch); ++*batches) {
-        REQUIRE_OK(cv_lighting_maps(&l, f->scene_gl, vals, &r.lighting, &batch, &err));
+    struct irb_val_lighting l;
+    struct irb_val_batch batch = {.count = -1};
+    irb_val_lighting_init(&l, gl);
+    REQUIRE_OK(irb_val_lighting_prepare(&l, il, &r.lighting, capacity, &err));
+    for (*batches = 0; irb_val_lighting_next(&l, &r.lighting, VALS, &batch); ++*batches) {
+        REQUIRE_OK(irb_val_lighting_maps(&l, f->scene_gl, vals, &r.lighting, &batch, &err));
         REQUIRE_OK(irb_csm_basis(l.csm, l.maps, &r.lighting.csm, &err));
         REQUIRE_OK(irb_csm_prefilter(l.csm, &err));
-        REQUIRE_OK(cv_lighting_run(&l, il, vals, &r.lighting, &batch, &err));
+        REQUIRE_OK(irb_val_lighting_run(&l, il, vals, &r.lighting, &batch, &err));
     }
     struct irb_image image = fixture_read(il->split, 4);
-    cv_lighting_destroy(&l);
-    cv_vals_destroy(vals);
+    irb_val_lighting_destroy(&l);
+    irb_vals_destroy(vals);
     irb_interleave_destroy(il);
     irb_vpl_set_destroy(set);
     free(params);

@@ -4,7 +4,7 @@
  */
 layout(local_size_x = 64) in;
 #include "lights/virtual_light.glsl"
-#include "methods/clustered_visibility/statistics.glsl"
+#include "lights/vals_statistics.glsl"
 
 layout(std430, binding = 0) readonly buffer Vpls { vec4 vpls[]; };
 layout(std430, binding = 1) writeonly buffer Vals { vec4 vals[]; };

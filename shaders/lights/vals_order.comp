@@ -5,7 +5,7 @@
  */
 layout(local_size_x = 64) in;
 #include "lights/virtual_light.glsl"
-#include "methods/clustered_visibility/tiles.glsl"
+#include "lights/vals_tiles.glsl"
 
 layout(std430, binding = 0) readonly buffer Vpls { vec4 vpls[]; };
 layout(std430, binding = 2) readonly buffer Assignment { uint assignment[]; };

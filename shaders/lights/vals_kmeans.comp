@@ -16,7 +16,7 @@ layout(local_size_x = GROUP) in;
 layout(std430, binding = 0) readonly buffer Vpls { vec4 vpls[]; };
 layout(std430, binding = 2) buffer Assignment { uint assignment[]; };
 layout(std430, binding = 5) buffer Means { vec4 means[]; };
-#include "methods/clustered_visibility/statistics.glsl"
+#include "lights/vals_statistics.glsl"
 
 uniform int vpl_count, val_count;
 uniform int tiles;           /* of interleaved sampling */

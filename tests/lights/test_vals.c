@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: MIT
  *
- * VALs of clustered visibility: k-means against a plain one in double precision.
+ * VALs: k-means against a plain one in double precision.
  */
 #include "tests/support/compare.h"
-#include "methods/clustered_visibility/vals.h"
+#include "core/lights/vals.h"
 #include "tests/lights/raster_fixture.h"
 
 static struct irb_gl *gl;
 
-enum { MOST = CV_MOST_VPLS };
+enum { MOST = IRB_VALS_MOST_LIGHTS };
 
 /* A case: lights, settings, and what comes out. */
 struct run {
     struct fixture_light lights[MOST];
     int count;
-    struct cv_cluster_settings settings;
-    struct cv_val vals[CV_MOST_VALS];
+    struct irb_vals_settings settings;
+    struct irb_val vals[IRB_VALS_MOST];
     uint32_t assignment[MOST];
-    struct cv_statistics statistics;
+    struct irb_vals_statistics statistics;
 };
 
-static const struct cv_cluster_settings usual = {
+static const struct irb_vals_settings usual = {
     .vals = 16, .weight_distance = 1, .weight_angle = 0.5f, .iterations = 100, .tiles = 1};
 
 /* VPLs on the walls, floor and ceiling of a 2 m box, normals inwards and a little off; shifted by
@@ -44,12 +44,12 @@ static void fill_room(struct run *r, int count, uint64_t seed, double at)
     r->count = count;
 }
 
-static void run(struct cv_vals *vals, struct run *r)
+static void run(struct irb_vals *vals, struct run *r)
 {
     struct irb_error err = {0};
     struct irb_virtual_lights view = fixture_lights(gl, r->lights, r->count);
-    REQUIRE_OK(cv_vals_cluster(vals, &view, &r->settings, &err));
-    REQUIRE_OK(cv_vals_statistics(vals, &r->statistics, &err));
+    REQUIRE_OK(irb_vals_cluster(vals, &view, &r->settings, &err));
+    REQUIRE_OK(irb_vals_statistics(vals, &r->statistics, &err));
     REQUIRE_OK(irb_buffer_read(vals->vals, 0, sizeof r->vals, r->vals, &err));
     REQUIRE_OK(irb_buffer_read(vals->assignment, 0, sizeof r->assignment, r->assignment, &err));
     irb_buffer_destroy((struct irb_buffer *)view.buffer);
@@ -63,17 +63,17 @@ static void run(struct cv_vals *vals, struct run *r)
 static void run_fresh(struct run *r)
 {
     struct irb_error err = {0};
-    struct cv_vals *vals = cv_vals_create(gl, &err);
+    struct irb_vals *vals = irb_vals_create(gl, &err);
     REQUIRE_OK(vals);
     run(vals, r);
-    cv_vals_destroy(vals);
+    irb_vals_destroy(vals);
 }
 
 /* --- the plain one --- */
 
 struct plain {
-    double centre[CV_MOST_VALS][3], normal[CV_MOST_VALS][3];
-    int of[MOST], members[CV_MOST_VALS], iterations;
+    double centre[IRB_VALS_MOST][3], normal[IRB_VALS_MOST][3];
+    int of[MOST], members[IRB_VALS_MOST], iterations;
 };
 
 static double mu(const struct run *r, int l, const double c[3], const double n[3])
@@ -162,7 +162,7 @@ static void check_records(const struct run *r, const struct plain *p)
         if (!p->members[v])
             continue;
         double radius2 =
-            r->settings.extent == CV_EXTENT_MAX ? farthest : 2 * moment / p->members[v];
+            r->settings.extent == IRB_VALS_EXTENT_MAX ? farthest : 2 * moment / p->members[v];
         REQUIRE_NEAR(r->vals[v].area, M_PI * radius2, 1e-5 * radius2 + 1e-9);
         for (int i = 0; i < 3; i++) {
             REQUIRE_NEAR(r->vals[v].position[i], p->centre[v][i], 1e-5);
@@ -185,7 +185,7 @@ static void test_against_double(void **state)
             fill_room(&r, cases[k].vpls, 10 + k, 0);
             r.settings = usual;
             r.settings.vals = cases[k].vals;
-            r.settings.extent = (enum cv_extent)extent;
+            r.settings.extent = (enum irb_vals_extent)extent;
             run_fresh(&r);
             plain_k_means(&r, &p);
             int differ = 0, in_use = 0;
@@ -212,7 +212,7 @@ static void test_converges(void **state)
     (void)state;
     enum { VALS = 64 };
     static struct run r;
-    fill_room(&r, CV_MOST_VPLS, 5, 0);
+    fill_room(&r, IRB_VALS_MOST_LIGHTS, 5, 0);
     for (int l = 0; l < r.count; l++) /* on a disc, densest in the middle */
         for (int i = 0; i < 3; i++) {
             r.lights[l].position[i] *= i == 1 ? 0 : fabsf(r.lights[l].position[i]);
@@ -254,10 +254,10 @@ static void test_reuse(void **state)
     struct irb_error err = {0};
     enum { FRAMES = 9, VPLS = 256 };
     static struct run r, fresh;
-    struct cv_vals *vals[2];
+    struct irb_vals *vals[2];
     int in_use[2][FRAMES];
     for (int start = 0; start < 2; start++) {
-        REQUIRE_OK(vals[start] = cv_vals_create(gl, &err));
+        REQUIRE_OK(vals[start] = irb_vals_create(gl, &err));
         for (int frame = 0; frame < FRAMES; frame++) {
             uint64_t seed = 3; /* the same points each frame */
             const double at = 0.5 * (frame < 5 ? frame : 8 - frame);
@@ -271,13 +271,13 @@ static void test_reuse(void **state)
             }
             r.count = VPLS;
             r.settings = usual;
-            r.settings.start = (enum cv_start)start;
+            r.settings.start = (enum irb_vals_start)start;
             run(vals[start], &r);
             in_use[start][frame] = r.statistics.in_use;
-            if (start == CV_RESTART) {
+            if (start == IRB_VALS_RESTART) {
                 fresh = r;
                 run_fresh(&fresh);
-                assert_memory_equal(fresh.vals, r.vals, sizeof(struct cv_val) * 16);
+                assert_memory_equal(fresh.vals, r.vals, sizeof(struct irb_val) * 16);
                 REQUIRE_CMP(r.statistics.in_use, >=, 15);
             } else if (frame) {
                 REQUIRE_CMP(in_use[1][frame], <=, in_use[1][frame - 1]);
@@ -296,11 +296,11 @@ static void test_reuse(void **state)
     r.count = VPLS;
     run(vals[1], &r);
     REQUIRE_NEAR(r.statistics.in_use, kept, 0);
-    cv_vals_forget(vals[1]);
+    irb_vals_forget(vals[1]);
     run(vals[1], &r);
     REQUIRE_NEAR(r.statistics.in_use, in_use[0][FRAMES - 1], 0);
-    cv_vals_destroy(vals[0]);
-    cv_vals_destroy(vals[1]);
+    irb_vals_destroy(vals[0]);
+    irb_vals_destroy(vals[1]);
 }
 
 /* All VPLs in one place; both sides of a thin wall, whose normals cancel; zero normals; far from
@@ -336,7 +336,7 @@ static void test_degenerate(void **state)
     fill_room(&r, 200, 8, 0);
     fill_room(&far, 200, 8, 4096);
     r.settings = far.settings = usual;
-    r.settings.centre = CV_CENTRE_MEMBER;
+    r.settings.centre = IRB_VALS_CENTRE_MEMBER;
     run_fresh(&r);
     run_fresh(&far);
     REQUIRE_NEAR(far.statistics.in_use, r.statistics.in_use, 1);
@@ -365,9 +365,9 @@ static void test_lifted(void **state)
     r.count = 300;
     r.settings = usual;
     r.settings.vals = 6;
-    r.settings.centre = CV_CENTRE_LIFTED;
+    r.settings.centre = IRB_VALS_CENTRE_LIFTED;
     mean = r;
-    mean.settings.centre = CV_CENTRE_MEAN;
+    mean.settings.centre = IRB_VALS_CENTRE_MEAN;
     run_fresh(&r);
     run_fresh(&mean);
     for (int v = 0; v < 6; v++) {
@@ -406,11 +406,11 @@ static void test_order(void **state)
             fill_room(&r, counts[c], 77, 0);
             r.settings = usual;
             r.settings.tiles = tiles[t];
-            struct cv_vals *vals = cv_vals_create(gl, &err);
+            struct irb_vals *vals = irb_vals_create(gl, &err);
             REQUIRE_OK(vals);
             run(vals, &r);
             struct irb_virtual_lights view = fixture_lights(gl, r.lights, r.count);
-            REQUIRE_OK(cv_vals_order(vals, &view, tiles[t], &err));
+            REQUIRE_OK(irb_vals_order(vals, &view, tiles[t], &err));
             REQUIRE_OK(irb_buffer_read(vals->ordered, 0, sizeof ordered, ordered, &err));
             int place = 0;
             for (int tile = 0; tile < tiles[t]; tile++)
@@ -423,7 +423,7 @@ static void test_order(void **state)
                         }
             REQUIRE_NEAR(place, r.count, 0);
             irb_buffer_destroy((struct irb_buffer *)view.buffer);
-            cv_vals_destroy(vals);
+            irb_vals_destroy(vals);
         }
 }
 

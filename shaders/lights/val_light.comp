@@ -14,7 +14,7 @@ layout(local_size_x = GROUP, local_size_y = GROUP) in;
 
 #include "lights/form_factor.glsl"
 #include "lights/virtual_light.glsl"
-#include "methods/clustered_visibility/tiles.glsl"
+#include "lights/vals_tiles.glsl"
 #if VISIBILITY
 #include "lights/csm_fetch.glsl"
 #endif

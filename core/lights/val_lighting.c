@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-#include "methods/clustered_visibility/lighting.h"
+#include "core/lights/val_lighting.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Work group side of light.comp, and bindings there. */
+/* Work group side of shaders/lights/val_light.comp, and bindings there. */
 enum { GROUP = 8 };
 enum { LIGHTS_BINDING = 0, VALS_BINDING = 1, CSM_BINDING = 2, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
 
-void cv_lighting_init(struct cv_lighting *l, struct irb_gl *gl)
+void irb_val_lighting_init(struct irb_val_lighting *l, struct irb_gl *gl)
 {
-    *l = (struct cv_lighting){.gl = gl, .lost.gl = gl};
+    *l = (struct irb_val_lighting){.gl = gl, .lost.gl = gl};
 }
 
-static void destroy_maps(struct cv_lighting *l)
+static void destroy_maps(struct irb_val_lighting *l)
 {
     irb_raster_maps_destroy(l->maps);
     irb_csm_destroy(l->csm);
@@ -29,13 +29,13 @@ static void destroy_programs(struct irb_program *programs[2])
     }
 }
 
-void cv_lighting_destroy(struct cv_lighting *l)
+void irb_val_lighting_destroy(struct irb_val_lighting *l)
 {
     destroy_maps(l);
     destroy_programs(l->programs[0]);
     destroy_programs(l->programs[1]);
     irb_lost_light_destroy(&l->lost);
-    cv_lighting_init(l, l->gl);
+    irb_val_lighting_init(l, l->gl);
 }
 
 static int smaller(int a, int b)
@@ -43,8 +43,8 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-static bool prepare_maps(struct cv_lighting *l, const struct cv_lighting_settings *s, int vals,
-                         struct irb_error *err)
+static bool prepare_maps(struct irb_val_lighting *l, const struct irb_val_lighting_settings *s,
+                         int vals, struct irb_error *err)
 {
     const int most = smaller(irb_csm_most(l->gl, s->projection, s->size, s->order),
                              irb_raster_maps_most(l->gl, s->projection, s->size));
@@ -64,7 +64,7 @@ static bool prepare_maps(struct cv_lighting *l, const struct cv_lighting_setting
     return l->csm != NULL;
 }
 
-static bool prepare_program(struct cv_lighting *l, const struct cv_lighting_settings *s,
+static bool prepare_program(struct irb_val_lighting *l, const struct irb_val_lighting_settings *s,
                             struct irb_error *err)
 {
     struct irb_program **program = &l->programs[s->visibility][s->bound > 0];
@@ -75,7 +75,7 @@ static bool prepare_program(struct cv_lighting *l, const struct cv_lighting_sett
     if (*program)
         return true;
     snprintf(block, sizeof block, "VPL_BLOCK %d", IRB_VPL_BLOCK);
-    snprintf(vals, sizeof vals, "MOST_VALS %d", CV_MOST_VALS);
+    snprintf(vals, sizeof vals, "MOST_VALS %d", IRB_VALS_MOST);
     if (s->bound > 0)
         defines[count++] = "CLAMPED 1";
     if (s->visibility) {
@@ -83,42 +83,43 @@ static bool prepare_program(struct cv_lighting *l, const struct cv_lighting_sett
         for (int i = 0; csm.list[i]; i++)
             defines[count++] = csm.list[i];
     }
-    const struct irb_program_desc desc = {.name = "clustered-visibility: light",
-                                          .compute = "methods/clustered_visibility/light.comp",
-                                          .defines = defines};
+    const struct irb_program_desc desc = {
+        .name = "vals: light", .compute = "lights/val_light.comp", .defines = defines};
     *program = irb_program_create(l->gl, &desc, err);
     return *program != NULL;
 }
 
-bool cv_lighting_prepare(struct cv_lighting *l, const struct irb_interleave *il,
-                         const struct cv_lighting_settings *s, int vals, struct irb_error *err)
+bool irb_val_lighting_prepare(struct irb_val_lighting *l, const struct irb_interleave *il,
+                              const struct irb_val_lighting_settings *s, int vals,
+                              struct irb_error *err)
 {
     return (!s->visibility || prepare_maps(l, s, vals, err)) &&
            irb_lost_light_prepare(&l->lost, il, s->bound, err) && prepare_program(l, s, err);
 }
 
-bool cv_lighting_next(const struct cv_lighting *l, const struct cv_lighting_settings *s, int vals,
-                      struct cv_batch *batch)
+bool irb_val_lighting_next(const struct irb_val_lighting *l,
+                           const struct irb_val_lighting_settings *s, int vals,
+                           struct irb_val_batch *batch)
 {
     const bool is_first = batch->count < 0;
     const int first = is_first ? 0 : batch->first + batch->count;
-    const int most = s->visibility ? l->csm->capacity : CV_MOST_VALS;
-    *batch = (struct cv_batch){.first = first, .count = smaller(vals - first, most)};
+    const int most = s->visibility ? l->csm->capacity : IRB_VALS_MOST;
+    *batch = (struct irb_val_batch){.first = first, .count = smaller(vals - first, most)};
     return is_first || batch->count > 0;
 }
 
-bool cv_lighting_maps(struct cv_lighting *l, const struct irb_scene_gl *scene,
-                      const struct cv_vals *vals, const struct cv_lighting_settings *s,
-                      const struct cv_batch *batch, struct irb_error *err)
+bool irb_val_lighting_maps(struct irb_val_lighting *l, const struct irb_scene_gl *scene,
+                           const struct irb_vals *vals, const struct irb_val_lighting_settings *s,
+                           const struct irb_val_batch *batch, struct irb_error *err)
 {
-    const struct irb_virtual_lights lights = cv_vals_view(vals);
+    const struct irb_virtual_lights lights = irb_vals_view(vals);
     return irb_raster_maps_render(l->maps, scene, &lights, batch->first, batch->count, s->near,
                                   err);
 }
 
-static void bind(const struct cv_lighting *l, const struct irb_program *program,
-                 const struct irb_interleave *il, const struct cv_vals *vals,
-                 const struct cv_lighting_settings *s, const struct cv_batch *batch)
+static void bind(const struct irb_val_lighting *l, const struct irb_program *program,
+                 const struct irb_interleave *il, const struct irb_vals *vals,
+                 const struct irb_val_lighting_settings *s, const struct irb_val_batch *batch)
 {
     const struct irb_gl_api *api = &l->gl->api;
 
@@ -131,7 +132,7 @@ static void bind(const struct cv_lighting *l, const struct irb_program *program,
         api->BindImageTexture(LOST_IMAGE, l->lost.image->id, 0, GL_FALSE, 0, GL_READ_WRITE,
                               GL_R32F);
     api->BindBufferRange(GL_UNIFORM_BUFFER, VALS_BINDING, vals->vals->id, 0,
-                         (GLsizeiptr)CV_MOST_VALS * IRB_VPL_BYTES);
+                         (GLsizeiptr)IRB_VALS_MOST * IRB_VPL_BYTES);
     if (s->visibility)
         irb_csm_bind(l->csm, program, &s->csm, CSM_BINDING, 2);
     irb_program_ivec2(program, "tile_size", (const int[]){il->tile_width, il->tile_height});
@@ -143,9 +144,9 @@ static void bind(const struct cv_lighting *l, const struct irb_program *program,
     irb_program_float(program, "bound", s->bound);
 }
 
-bool cv_lighting_run(struct cv_lighting *l, const struct irb_interleave *il,
-                     const struct cv_vals *vals, const struct cv_lighting_settings *s,
-                     const struct cv_batch *batch, struct irb_error *err)
+bool irb_val_lighting_run(struct irb_val_lighting *l, const struct irb_interleave *il,
+                          const struct irb_vals *vals, const struct irb_val_lighting_settings *s,
+                          const struct irb_val_batch *batch, struct irb_error *err)
 {
     const struct irb_gl_api *api = &l->gl->api;
     const struct irb_program *program = l->programs[s->visibility][s->bound > 0];
@@ -166,11 +167,11 @@ bool cv_lighting_run(struct cv_lighting *l, const struct irb_interleave *il,
         api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                            GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
     }
-    return irb_gl_check(l->gl, "clustered-visibility: light", err);
+    return irb_gl_check(l->gl, "vals: light", err);
 }
 
-bool cv_lighting_lost(struct cv_lighting *l, const struct irb_interleave *il, double *share,
-                      struct irb_error *err)
+bool irb_val_lighting_lost(struct irb_val_lighting *l, const struct irb_interleave *il,
+                           double *share, struct irb_error *err)
 {
     return irb_lost_light_share(&l->lost, il, share, err);
 }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-#include "methods/clustered_visibility/vals.h"
+#include "core/lights/vals.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *const cv_start_names[] = {"restart", "reuse", NULL};
-const char *const cv_extent_names[] = {"moment", "max", NULL};
-const char *const cv_centre_names[] = {"mean", "lifted", "member", NULL};
+const char *const irb_vals_start_names[] = {"restart", "reuse", NULL};
+const char *const irb_vals_extent_names[] = {"moment", "max", NULL};
+const char *const irb_vals_centre_names[] = {"mean", "lifted", "member", NULL};
 
-/* Shader storage bindings and work group of shaders/methods/clustered_visibility/. */
+/* Shader storage bindings and work group of shaders/lights/vals_*. */
 enum {
     VPLS_BINDING,
     VALS_BINDING,
@@ -31,50 +31,45 @@ static struct irb_program *create_program(struct irb_gl *gl, const char *name, c
                                           struct irb_error *err)
 {
     char vpls[32], vals[32];
-    snprintf(vpls, sizeof vpls, "MOST_VPLS %d", CV_MOST_VPLS);
-    snprintf(vals, sizeof vals, "MOST_VALS %d", CV_MOST_VALS);
+    snprintf(vpls, sizeof vpls, "MOST_VPLS %d", IRB_VALS_MOST_LIGHTS);
+    snprintf(vals, sizeof vals, "MOST_VALS %d", IRB_VALS_MOST);
     const char *const defines[] = {vpls, vals, NULL};
     return irb_program_create(
         gl, &(struct irb_program_desc){.name = name, .compute = path, .defines = defines}, err);
 }
 
-static bool create_buffers(struct cv_vals *v, struct irb_error *err)
+static bool create_buffers(struct irb_vals *v, struct irb_error *err)
 {
     static const struct statistics_record none;
-    const int64_t lights = (int64_t)CV_MOST_VPLS * IRB_VPL_BYTES;
-    return (v->vals = irb_buffer_create(v->gl, "clustered-visibility: VALs",
+    const int64_t lights = (int64_t)IRB_VALS_MOST_LIGHTS * IRB_VPL_BYTES;
+    return (v->vals = irb_buffer_create(v->gl, "vals: records",
                                         (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES, NULL, err)) &&
-           (v->assignment = irb_buffer_create(v->gl, "clustered-visibility: assignment",
-                                              (int64_t)CV_MOST_VPLS * 4, NULL, err)) &&
-           (v->ordered =
-                irb_buffer_create(v->gl, "clustered-visibility: ordered", lights, NULL, err)) &&
-           (v->means = irb_buffer_create(v->gl, "clustered-visibility: means",
-                                         (int64_t)CV_MOST_VALS * 2 * 16, NULL, err)) &&
-           (v->statistics = irb_buffer_create(v->gl, "clustered-visibility: statistics",
-                                              sizeof none, &none, err));
+           (v->assignment = irb_buffer_create(v->gl, "vals: assignment",
+                                              (int64_t)IRB_VALS_MOST_LIGHTS * 4, NULL, err)) &&
+           (v->ordered = irb_buffer_create(v->gl, "vals: ordered", lights, NULL, err)) &&
+           (v->means = irb_buffer_create(v->gl, "vals: means", (int64_t)IRB_VALS_MOST * 2 * 16,
+                                         NULL, err)) &&
+           (v->statistics = irb_buffer_create(v->gl, "vals: statistics", sizeof none, &none, err));
 }
 
-struct cv_vals *cv_vals_create(struct irb_gl *gl, struct irb_error *err)
+struct irb_vals *irb_vals_create(struct irb_gl *gl, struct irb_error *err)
 {
-    struct cv_vals *v = calloc(1, sizeof *v);
+    struct irb_vals *v = calloc(1, sizeof *v);
     if (!v) {
-        irb_fail(err, IRB_E_MEMORY, "clustered-visibility: out of memory");
+        irb_fail(err, IRB_E_MEMORY, "vals: out of memory");
         return NULL;
     }
     v->gl = gl;
     if (create_buffers(v, err) &&
-        (v->kmeans = create_program(gl, "clustered-visibility: k-means",
-                                    "methods/clustered_visibility/kmeans.comp", err)) &&
-        (v->finish = create_program(gl, "clustered-visibility: VALs",
-                                    "methods/clustered_visibility/finish.comp", err)) &&
-        (v->order = create_program(gl, "clustered-visibility: order",
-                                   "methods/clustered_visibility/order.comp", err)))
+        (v->kmeans = create_program(gl, "vals: k-means", "lights/vals_kmeans.comp", err)) &&
+        (v->finish = create_program(gl, "vals: records", "lights/vals_finish.comp", err)) &&
+        (v->order = create_program(gl, "vals: order", "lights/vals_order.comp", err)))
         return v;
-    cv_vals_destroy(v);
+    irb_vals_destroy(v);
     return NULL;
 }
 
-void cv_vals_destroy(struct cv_vals *v)
+void irb_vals_destroy(struct irb_vals *v)
 {
     if (!v)
         return;
@@ -89,18 +84,18 @@ void cv_vals_destroy(struct cv_vals *v)
     free(v);
 }
 
-void cv_vals_forget(struct cv_vals *v)
+void irb_vals_forget(struct irb_vals *v)
 {
     v->has_history = false;
 }
 
-static void barrier(const struct cv_vals *v)
+static void barrier(const struct irb_vals *v)
 {
     v->gl->api.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT |
                              GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-static void bind(const struct cv_vals *v, const struct irb_virtual_lights *vpls)
+static void bind(const struct irb_vals *v, const struct irb_virtual_lights *vpls)
 {
     const struct irb_gl_api *api = &v->gl->api;
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, VPLS_BINDING, vpls->buffer->id);
@@ -113,7 +108,7 @@ static void bind(const struct cv_vals *v, const struct irb_virtual_lights *vpls)
 
 /* Dispatches that make up to s->iterations, each as many as llvmpipe's limit lets it; those after
  * convergence do nothing. */
-static void iterate(const struct cv_vals *v, int vpls, const struct cv_cluster_settings *s,
+static void iterate(const struct irb_vals *v, int vpls, const struct irb_vals_settings *s,
                     bool reuse)
 {
     const int own = (vpls + KMEANS_GROUP - 1) / KMEANS_GROUP; /* VPLs of one invocation */
@@ -136,18 +131,18 @@ static void iterate(const struct cv_vals *v, int vpls, const struct cv_cluster_s
     }
 }
 
-bool cv_vals_cluster(struct cv_vals *v, const struct irb_virtual_lights *vpls,
-                     const struct cv_cluster_settings *s, struct irb_error *err)
+bool irb_vals_cluster(struct irb_vals *v, const struct irb_virtual_lights *vpls,
+                      const struct irb_vals_settings *s, struct irb_error *err)
 {
     static const struct statistics_record none = {.converged = 1};
 
-    if (vpls->count > CV_MOST_VPLS || s->vals < 1 || s->vals > CV_MOST_VALS || s->iterations < 1)
-        return irb_fail(err, IRB_E_INTERNAL, "clustered-visibility: %d VALs of %d VPLs", s->vals,
-                        vpls->count);
+    if (vpls->count > IRB_VALS_MOST_LIGHTS || s->vals < 1 || s->vals > IRB_VALS_MOST ||
+        s->iterations < 1)
+        return irb_fail(err, IRB_E_INTERNAL, "vals: %d VALs of %d lights", s->vals, vpls->count);
     if (!vpls->count)
         return irb_buffer_write(v->statistics, 0, sizeof none, &none, err);
     bind(v, vpls);
-    iterate(v, vpls->count, s, s->start == CV_REUSE && v->has_history && v->count == s->vals);
+    iterate(v, vpls->count, s, s->start == IRB_VALS_REUSE && v->has_history && v->count == s->vals);
     irb_program_use(v->finish);
     irb_program_int(v->finish, "vpl_count", vpls->count);
     irb_program_int(v->finish, "val_count", s->vals);
@@ -157,11 +152,11 @@ bool cv_vals_cluster(struct cv_vals *v, const struct irb_virtual_lights *vpls,
     barrier(v);
     v->count = s->vals;
     v->has_history = true;
-    return irb_gl_check(v->gl, "clustered-visibility: k-means", err);
+    return irb_gl_check(v->gl, "vals: k-means", err);
 }
 
-bool cv_vals_order(struct cv_vals *v, const struct irb_virtual_lights *vpls, int tiles,
-                   struct irb_error *err)
+bool irb_vals_order(struct irb_vals *v, const struct irb_virtual_lights *vpls, int tiles,
+                    struct irb_error *err)
 {
     v->vpls = vpls->count;
     if (!vpls->count)
@@ -172,16 +167,17 @@ bool cv_vals_order(struct cv_vals *v, const struct irb_virtual_lights *vpls, int
     irb_program_int(v->order, "tiles", tiles);
     v->gl->api.DispatchCompute((unsigned)(vpls->count + GROUP - 1) / GROUP, 1, 1);
     barrier(v);
-    return irb_gl_check(v->gl, "clustered-visibility: order", err);
+    return irb_gl_check(v->gl, "vals: order", err);
 }
 
-bool cv_vals_statistics(const struct cv_vals *v, struct cv_statistics *out, struct irb_error *err)
+bool irb_vals_statistics(const struct irb_vals *v, struct irb_vals_statistics *out,
+                         struct irb_error *err)
 {
     struct statistics_record record = {0};
     if (!irb_buffer_read(v->statistics, 0, sizeof record, &record, err))
         return false;
-    *out = (struct cv_statistics){.in_use = (int)record.in_use,
-                                  .iterations = (int)record.iterations,
-                                  .converged = record.converged != 0};
+    *out = (struct irb_vals_statistics){.in_use = (int)record.in_use,
+                                        .iterations = (int)record.iterations,
+                                        .converged = record.converged != 0};
     return true;
 }

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Irradiance of the split G-buffer from the VPLs, with soft shadows from one convolution shadow map
+ * a VAL. Where not all maps fit, they are made and lit with in batches.
+ */
+#ifndef IRB_LIGHTS_VAL_LIGHTING_H
+#define IRB_LIGHTS_VAL_LIGHTING_H
+
+#include "core/frame/interleave.h"
+#include "core/lights/csm.h"
+#include "core/lights/lost_light.h"
+#include "core/lights/vals.h"
+
+struct irb_val_lighting_settings {
+    bool visibility; /* false: V = 1, without maps */
+    enum irb_raster_projection projection;
+    int size;   /* texels a side of a map's face: a power of two */
+    float near; /* m */
+    int order;  /* M */
+    enum irb_csm_prefilter prefilter;
+    struct irb_csm_settings csm;
+    float bound; /* largest geometry term cos cos/r^2, 1/m2; 0: none */
+};
+
+struct irb_val_lighting {
+    struct irb_gl *gl; /* borrowed */
+    struct irb_raster_maps *maps;
+    struct irb_csm *csm;
+    struct irb_lost_light lost;
+    struct irb_program *programs[2][2]; /* visibility, bounded; of this csm */
+};
+
+/* All else may be zero. */
+void irb_val_lighting_init(struct irb_val_lighting *lighting, struct irb_gl *gl);
+void irb_val_lighting_destroy(struct irb_val_lighting *lighting);
+
+/* Makes what the settings ask for; before the steps below. */
+bool irb_val_lighting_prepare(struct irb_val_lighting *lighting,
+                              const struct irb_interleave *interleave,
+                              const struct irb_val_lighting_settings *settings, int vals,
+                              struct irb_error *err);
+
+/* VALs first..first+count-1, those of one batch. */
+struct irb_val_batch {
+    int first, count;
+};
+/* The next batch, the first one where batch->count is negative; false when there is none left. All
+ * VALs are one batch where visibility is off; no VAL at all is one empty batch. */
+bool irb_val_lighting_next(const struct irb_val_lighting *lighting,
+                           const struct irb_val_lighting_settings *settings, int vals,
+                           struct irb_val_batch *batch);
+
+bool irb_val_lighting_maps(struct irb_val_lighting *lighting, const struct irb_scene_gl *scene,
+                           const struct irb_vals *vals,
+                           const struct irb_val_lighting_settings *settings,
+                           const struct irb_val_batch *batch, struct irb_error *err);
+/* Adds the light of the batch's VPLs to interleave->split; the first batch replaces what is there.
+ */
+bool irb_val_lighting_run(struct irb_val_lighting *lighting,
+                          const struct irb_interleave *interleave, const struct irb_vals *vals,
+                          const struct irb_val_lighting_settings *settings,
+                          const struct irb_val_batch *batch, struct irb_error *err);
+
+/* Share of the irradiance that the bound took, [0,1]. Waits for the GPU. */
+bool irb_val_lighting_lost(struct irb_val_lighting *lighting,
+                           const struct irb_interleave *interleave, double *share,
+                           struct irb_error *err);
+
+#endif
