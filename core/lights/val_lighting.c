@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Work group side of shaders/lights/val_light.comp, and bindings there. */
-enum { GROUP = 8 };
+/* Work group side of shaders/lights/val_light.comp, pixels an invocation a side, and bindings. */
+enum { GROUP = 8, TILE = 2, SIDE = GROUP * TILE };
 enum { LIGHTS_BINDING = 0, VALS_BINDING = 1, CSM_BINDING = 2, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
 
 void irb_val_lighting_init(struct irb_val_lighting *l, struct irb_gl *gl)
@@ -21,12 +21,18 @@ static void destroy_maps(struct irb_val_lighting *l)
     l->csm = NULL;
 }
 
-static void destroy_programs(struct irb_program *programs[2])
+static void destroy_programs(struct irb_program *programs[2][2])
 {
-    for (int bounded = 0; bounded < 2; bounded++) {
-        irb_program_destroy(programs[bounded]);
-        programs[bounded] = NULL;
+    for (int i = 0; i < 2 * 2; i++) {
+        irb_program_destroy(programs[i / 2][i % 2]);
+        programs[i / 2][i % 2] = NULL;
     }
+}
+
+static struct irb_program **program_of(struct irb_val_lighting *l,
+                                       const struct irb_val_lighting_settings *s)
+{
+    return &l->programs[s->visibility][s->discs][s->bound > 0];
 }
 
 void irb_val_lighting_destroy(struct irb_val_lighting *l)
@@ -67,14 +73,16 @@ static bool prepare_maps(struct irb_val_lighting *l, const struct irb_val_lighti
 static bool prepare_program(struct irb_val_lighting *l, const struct irb_val_lighting_settings *s,
                             struct irb_error *err)
 {
-    struct irb_program **program = &l->programs[s->visibility][s->bound > 0];
+    struct irb_program **program = program_of(l, s);
     struct irb_csm_defines csm;
-    char block[32], vals[32];
-    const char *defines[16] = {s->visibility ? "VISIBILITY 1" : "VISIBILITY 0", block, vals};
-    int count = 3;
+    char block[32], vals[32], tile[32];
+    const char *defines[16] = {s->visibility ? "VISIBILITY 1" : "VISIBILITY 0",
+                               s->discs ? "DISCS 1" : "DISCS 0", block, vals, tile};
+    int count = 5;
     if (*program)
         return true;
     snprintf(block, sizeof block, "VPL_BLOCK %d", IRB_VPL_BLOCK);
+    snprintf(tile, sizeof tile, "TILE %d", TILE);
     snprintf(vals, sizeof vals, "MOST_VALS %d", IRB_VALS_MOST);
     if (s->bound > 0)
         defines[count++] = "CLAMPED 1";
@@ -149,7 +157,7 @@ bool irb_val_lighting_run(struct irb_val_lighting *l, const struct irb_interleav
                           const struct irb_val_batch *batch, struct irb_error *err)
 {
     const struct irb_gl_api *api = &l->gl->api;
-    const struct irb_program *program = l->programs[s->visibility][s->bound > 0];
+    const struct irb_program *program = *program_of(l, s);
     const int64_t bytes = (int64_t)IRB_VPL_BLOCK * IRB_VPL_BYTES;
 
     irb_program_use(program);
@@ -161,8 +169,8 @@ bool irb_val_lighting_run(struct irb_val_lighting *l, const struct irb_interleav
         irb_program_int(program, "accumulate", begin > 0 || batch->first > 0);
         api->BindBufferRange(GL_UNIFORM_BUFFER, LIGHTS_BINDING, vals->ordered->id,
                              begin / IRB_VPL_BLOCK * bytes, bytes);
-        api->DispatchCompute((unsigned)((il->tile_width + GROUP - 1) / GROUP),
-                             (unsigned)((il->tile_height + GROUP - 1) / GROUP),
+        api->DispatchCompute((unsigned)((il->tile_width + SIDE - 1) / SIDE),
+                             (unsigned)((il->tile_height + SIDE - 1) / SIDE),
                              (unsigned)(il->n * il->m));
         api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                            GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);

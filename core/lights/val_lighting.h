@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Irradiance of the split G-buffer from the VPLs, with soft shadows from one convolution shadow map
- * a VAL. Where not all maps fit, they are made and lit with in batches.
+ * Irradiance of the split G-buffer from virtual lights, with soft shadows from one convolution
+ * shadow map a VAL (Dong et al. 2009; thesis 3.2.5): E(x) = sum over VALs of V sum over their
+ * lights of Phi F. Where not all maps fit, they are made and lit with in batches.
  */
 #ifndef IRB_LIGHTS_VAL_LIGHTING_H
 #define IRB_LIGHTS_VAL_LIGHTING_H
@@ -13,6 +14,8 @@
 
 struct irb_val_lighting_settings {
     bool visibility; /* false: V = 1, without maps */
+    bool discs; /* F of the lights' areas (thesis eq. 5.5); else they are points, whatever their
+                   area */
     enum irb_raster_projection projection;
     int size;   /* texels a side of a map's face: a power of two */
     float near; /* m */
@@ -27,7 +30,7 @@ struct irb_val_lighting {
     struct irb_raster_maps *maps;
     struct irb_csm *csm;
     struct irb_lost_light lost;
-    struct irb_program *programs[2][2]; /* visibility, bounded; of this csm */
+    struct irb_program *programs[2][2][2]; /* visibility, discs, bounded; of this csm */
 };
 
 /* All else may be zero. */
@@ -54,7 +57,8 @@ bool irb_val_lighting_maps(struct irb_val_lighting *lighting, const struct irb_s
                            const struct irb_vals *vals,
                            const struct irb_val_lighting_settings *settings,
                            const struct irb_val_batch *batch, struct irb_error *err);
-/* Adds the light of the batch's VPLs to interleave->split; the first batch replaces what is there.
+/* Adds the light of the lights of the batch's VALs to interleave->split; the first batch replaces
+ * what is there.
  */
 bool irb_val_lighting_run(struct irb_val_lighting *lighting,
                           const struct irb_interleave *interleave, const struct irb_vals *vals,

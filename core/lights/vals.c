@@ -113,7 +113,7 @@ static void iterate(const struct irb_vals *v, int vpls, const struct irb_vals_se
 {
     const int own = (vpls + KMEANS_GROUP - 1) / KMEANS_GROUP; /* VPLs of one invocation */
     const int rounds = own * (s->vals + 3) + vpls + 4;
-    const int at_once = MOST_ROUNDS / rounds;
+    const int at_once = (MOST_ROUNDS - vpls) / rounds; /* less the search for lit ones */
 
     irb_program_use(v->kmeans);
     irb_program_int(v->kmeans, "vpl_count", vpls);

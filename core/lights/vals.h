@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * Virtual area lights (VALs): clusters of virtual point lights by k-means (Dong et al. 2009; thesis
- * 3.2.5), in one work group, until no VPL changes its VAL.
+ * Virtual area lights (VALs): clusters of virtual lights, here called VPLs though they may have
+ * areas, by k-means (Dong et al. 2009; thesis 3.2.5), in one work group, until no VPL changes its
+ * VAL. Dark ones belong to none.
  *
  *     mu(c, x) = w_x |x - c| + w_a angle(n_x, n_c)     (eq. 3.7)
  *
- * A tie goes to the VAL of lower number. The VALs of a start are the first k VPLs of the sequence
- * that those are drawn by: the same assignment to begin with in every frame. Or they are those of
- * the frame before, and then one that lost all its VPLs takes no further part (figure 3.9).
+ * A tie goes to the VAL of lower number. The VALs of a start are the first k lit VPLs of the
+ * sequence that those are drawn by: the same assignment to begin with in every frame. Or they are
+ * those of the frame before, and then one that lost all its VPLs takes no further part
+ * (figure 3.9).
  */
 #ifndef IRB_LIGHTS_VALS_H
 #define IRB_LIGHTS_VALS_H
@@ -31,7 +33,8 @@ struct irb_vals_settings {
     int iterations;        /* at most, >= 1 */
     enum irb_vals_start start;
     enum irb_vals_extent extent; /* radius of a VAL: of the disc with its VPLs' second moment, which
-                              is sqrt(2 mean |x - c|^2), or to its farthest VPL */
+                              is sqrt(2 mean |x - c|^2 + mean A/pi), or to the rim of its farthest
+                              VPL */
     enum irb_vals_centre centre; /* where its shadow map stands: at the mean of its VPLs; that,
                               lifted along the mean normal to the height of the highest of them; or
                               at the VPL that is nearest to it */
@@ -56,7 +59,7 @@ struct irb_vals {
     struct irb_buffer *vals;       /* struct irb_val each, one block of IRB_VPL_BLOCK */
     struct irb_buffer *assignment; /* uint a VPL: its VAL */
     struct irb_buffer *ordered; /* VPLs by tile, then VAL, then number, in whole blocks; the VAL in
-                                   the normal's w */
+                                   the normal's w; -1 in that of dark ones, which come last */
     int count;                  /* k of the last run */
     int vpls;                   /* in the order */
     bool has_history;           /* of as many VALs */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * What lights the image with the area lights: the split G-buffer, and where shadows are asked for
- * points of the scene and shadow maps. Everything is made when a frame first needs it, and anew
- * when a parameter asks for another one.
+ * points of the scene and imperfect shadow maps, or VALs and their maps. Everything is made when a
+ * frame first needs it, and anew when a parameter asks for another one.
  */
 #ifndef IRB_METHODS_RSM_CLUSTERING_LIGHTING_H
 #define IRB_METHODS_RSM_CLUSTERING_LIGHTING_H
@@ -13,13 +13,17 @@ enum { RSC_MAP_SIZE = 128 }; /* of a shadow map, texels; Ritschel et al. 2008 */
 
 struct rsc_lighting {
     struct irb_gl *gl;         /* borrowed */
-    struct irb_points *points; /* of point_settings; NULL without shadows */
+    struct irb_points *points; /* of point_settings; NULL until imperfect maps are asked for */
     struct irb_points_desc point_settings;
-    struct irb_ism *ism; /* NULL without shadows */
+    struct irb_ism *ism;   /* likewise */
+    struct irb_vals *vals; /* NULL until visibility=clustered is asked for */
+    struct irb_val_lighting val_lighting;
     struct irb_interleave *interleave;
     struct irb_shade *shade;
 };
 
+/* All else may be zero. */
+void rsc_lighting_init(struct rsc_lighting *lighting, struct irb_gl *gl);
 void rsc_lighting_destroy(struct rsc_lighting *lighting); /* what it holds */
 
 /* Before the stages of a frame: makes what is missing for images of width x height. */

@@ -14,14 +14,19 @@ static const char *const assignments[] = {"grid", "brute", NULL};
 enum { SHAPE_DISC, SHAPE_POLYGON };
 static const char *const shapes[] = {"disc", "polygon", NULL};
 static const char *const corner_counts[] = {"8", "16", NULL};
-/* In the order of enum irb_shade_visibility. */
-static const char *const visibilities[] = {"none", "binary", "pcss", NULL};
+/* Up to `clustered` in the order of enum irb_shade_visibility. */
+enum { VISIBILITY_CLUSTERED = IRB_SHADE_PCSS + 1 };
+static const char *const visibilities[] = {"none", "binary", "pcss", "clustered", NULL};
+enum { LEAST_MAP = 64, MAP_256 = 2 };
+static const char *const map_sizes[] = {"64", "128", "256", "512", NULL};
 
 #define P struct rsc_params
 const struct irb_option rsc_options[] = {
-    IRB_OPTION_INT(P, clusters, 1024, 1, RSC_MOST_CLUSTERS, "",
-                   "k: clusters, and area lights but for empty ones; at most 1024 with shadow maps",
-                   "Prutkin et al. 2012, table 1: 256, 1024"),
+    IRB_OPTION_INT(
+        P, clusters, 1024, 1, RSC_MOST_CLUSTERS, "",
+        "k: clusters, and area lights but for empty ones; at most 1024 with imperfect shadow "
+        "maps, 2048 with visibility=clustered",
+        "Prutkin et al. 2012, table 1: 256, 1024"),
     IRB_OPTION_FLOAT(
         P, view_weight, 1, 0, 1, "",
         "importance by which seeds are drawn: share of the geometry terms with visible "
@@ -75,9 +80,10 @@ const struct irb_option rsc_options[] = {
                     "corners of a polygon: its extreme texels in so many directions", "ours"),
     IRB_OPTION_ENUM(
         P, visibility, IRB_SHADE_NONE, visibilities,
-        "indirect shadows: none, or from imperfect shadow maps: of the lights' centres, "
-        "or of their discs by percentage-closer soft shadows",
-        "Prutkin et al. 2012: none; section 7 proposes it"),
+        "indirect shadows: none; from an imperfect shadow map a light: of its centre, or of its "
+        "disc by percentage-closer soft shadows; clustered: from one rasterised convolution soft "
+        "shadow map for each of few clusters of the lights (VALs), discs only",
+        "Prutkin et al. 2012: none; section 7 proposes both; Dong et al. 2009: clustered"),
     IRB_OPTION_INT(P, points, 1000000, 1000, 16000000, "",
                    "shadow maps: points on the scene's surfaces that they are splatted from",
                    "Ritschel et al. 2008; value: ours"),
@@ -100,6 +106,22 @@ const struct irb_option rsc_options[] = {
                      "ours"),
     IRB_OPTION_FLOAT(P, offset, 1e-3, 0, 1, "",
                      "the same everywhere, as a share of the scene's diagonal", "ours"),
+    IRB_OPTION_INT(P, vals, 16, 1, IRB_VALS_MOST, "",
+                   "clustered: clusters of the lights, with a shadow map each",
+                   "Dong et al. 2009; value: as clustered-visibility"),
+    IRB_OPTION_FLOAT(P, w_x, 1, 0, 1e6, "",
+                     "clustered: weight of the distance from light to VAL, in diagonals of the "
+                     "scene at rest",
+                     "thesis eq. 3.7; value: as clustered-visibility"),
+    IRB_OPTION_FLOAT(P, w_a, 0.5, 0, 1e6, "1/rad",
+                     "clustered: weight of the angle between their normals",
+                     "thesis eq. 3.7; value: as clustered-visibility"),
+    IRB_OPTION_ENUM(P, map_size, MAP_256, map_sizes,
+                    "clustered: texels a side of a VAL's shadow map",
+                    "thesis 3.2.5; values: as clustered-visibility"),
+    IRB_OPTION_INT(P, order, 4, 1, IRB_CSM_ORDER_MOST, "",
+                   "clustered: M, order of the Fourier series of the shadow test",
+                   "thesis eq. 3.5; 4: as clustered-visibility"),
     IRB_OPTION_INT(
         P, interleave, 1, 1, IRB_INTERLEAVE_MOST, "",
         "n: each pixel is lit by every n^2-th light, and n x n pixels are averaged where "
@@ -141,7 +163,7 @@ static struct rsc_settings clustering_of(const struct rsc_params *p, float diago
 static struct irb_shade_settings shade_of(const struct rsc_params *p, float diagonal)
 {
     return (struct irb_shade_settings){
-        .visibility = p->visibility,
+        .visibility = p->visibility == VISIBILITY_CLUSTERED ? IRB_SHADE_NONE : p->visibility,
         .bias = p->bias,
         .slope = p->slope,
         .offset = p->offset * diagonal,
@@ -152,15 +174,56 @@ static struct irb_shade_settings shade_of(const struct rsc_params *p, float diag
     };
 }
 
+/* All that has no option is as clustered-visibility has it by default. */
+static struct irb_vals_settings vals_of(const struct rsc_params *p, float diagonal)
+{
+    return (struct irb_vals_settings){
+        .vals = p->vals,
+        .weight_distance = p->w_x / (diagonal > 0 ? diagonal : 1),
+        .weight_angle = p->w_a,
+        .iterations = 64,
+        .start = IRB_VALS_RESTART,
+        .extent = IRB_VALS_EXTENT_MOMENT,
+        .centre = IRB_VALS_CENTRE_LIFTED,
+        .tiles = 1, /* clusters come in the Halton sequence's order */
+    };
+}
+
+static struct irb_val_lighting_settings val_lighting_of(const struct rsc_params *p, float diagonal)
+{
+    return (struct irb_val_lighting_settings){
+        .visibility = true,
+        .discs = true,
+        .projection = IRB_RASTER_PARABOLOID,
+        .size = LEAST_MAP << p->map_size,
+        .near = 1e-3f * diagonal,
+        .order = p->order,
+        .prefilter = IRB_CSM_MIP,
+        .csm = {.scale = 2, .search_offset = 0.613f, .search_scale = 1, .penumbra_scale = 1},
+    };
+}
+
+static bool check(const struct rsc_params *p, struct irb_error *err)
+{
+    const bool is_clustered = p->visibility == VISIBILITY_CLUSTERED;
+    const int most = is_clustered ? IRB_VALS_MOST_LIGHTS : IRB_VPL_BLOCK;
+    if (is_clustered && p->shape == SHAPE_POLYGON)
+        return irb_fail(err, IRB_E_INPUT,
+                        "rsm-clustering: visibility=clustered takes discs only; use shape=disc or "
+                        "visibility=pcss");
+    if (p->visibility != IRB_SHADE_NONE && p->clusters > most)
+        return irb_fail(err, IRB_E_INPUT,
+                        "rsm-clustering: visibility=%s takes at most %d clusters, found %d; use "
+                        "fewer clusters or visibility=none",
+                        visibilities[p->visibility], most, p->clusters);
+    return true;
+}
+
 bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t seed, unsigned frame,
                         struct rsc_resolved *out, struct irb_error *err)
 {
-    if (p->visibility != IRB_SHADE_NONE && p->clusters > IRB_VPL_BLOCK)
-        return irb_fail(
-            err, IRB_E_INPUT,
-            "rsm-clustering: there are shadow maps for %d clusters, found %d; use fewer "
-            "clusters or visibility=none",
-            IRB_VPL_BLOCK, p->clusters);
+    if (!check(p, err))
+        return false;
     *out = (struct rsc_resolved){
         .importance = {.diffuse_weight = 1,
                        .view_weight = p->view_weight < 1 ? p->view_weight : 1 - least_brdf_weight,
@@ -182,6 +245,9 @@ bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t see
                 .pull_push = p->pull_push,
                 .pull = IRB_ISM_MEDIAN},
         .shade = shade_of(p, diagonal),
+        .is_clustered = p->visibility == VISIBILITY_CLUSTERED,
+        .vals = vals_of(p, diagonal),
+        .val_lighting = val_lighting_of(p, diagonal),
         .interleave = p->interleave,
         .depth = p->alpha * diagonal,
         .cosine = p->beta,

@@ -8,6 +8,7 @@
 #include "core/lights/importance.h"
 #include "core/lights/ism.h"
 #include "core/lights/shade.h"
+#include "core/lights/val_lighting.h"
 #include "methods/rsm_clustering/area_lights.h"
 
 struct rsc_params {
@@ -24,6 +25,9 @@ struct rsc_params {
     int splat_most, pull_push;
     int taps, blocker_taps;
     float bias, slope, offset;
+    int vals;
+    float w_x, w_a;
+    int map_size, order;
     int interleave;
     float alpha, beta;
 };
@@ -38,6 +42,9 @@ struct rsc_resolved {
     struct irb_points_desc points;
     struct irb_ism_settings ism;
     struct irb_shade_settings shade;
+    bool is_clustered; /* shadows from the lights' VALs, whose settings follow */
+    struct irb_vals_settings vals;
+    struct irb_val_lighting_settings val_lighting;
     int interleave;      /* tiles a side */
     float depth, cosine; /* thresholds of the filter: m, 1 */
 };
@@ -47,8 +54,8 @@ struct rsc_resolved {
 bool rsc_params_resolve(const struct rsc_params *params, float diagonal, uint64_t seed,
                         unsigned frame, struct rsc_resolved *out, struct irb_error *err);
 
-/* Whether the lights have shadow maps. */
-static inline bool rsc_has_shadows(const struct rsc_resolved *r)
+/* Whether each light has an imperfect shadow map. */
+static inline bool rsc_has_ism(const struct rsc_resolved *r)
 {
     return r->shade.visibility != IRB_SHADE_NONE;
 }

@@ -4,6 +4,7 @@
  * one iteration of k-means each, and one-bounce light from the clusters taken as area lights.
  */
 #include "methods/method.h"
+#include "core/frame/shadow_term.h"
 #include "methods/rsm_clustering/lighting.h"
 #include "methods/rsm_clustering/pictures.h"
 
@@ -21,14 +22,19 @@ enum {
     STAGE_GEOMETRY,
     STAGE_SPLAT,
     STAGE_PULL_PUSH,
+    STAGE_CLUSTER,
+    STAGE_MAPS,
+    STAGE_BASIS,
+    STAGE_PREFILTER,
     STAGE_SPLIT,
     STAGE_LIGHT,
     STAGE_MERGE,
     STAGE_FILTER
 };
-static const char *const stages[] = {"importance", "seed",     "grid",   "assign",    "sort",
-                                     "update",     "geometry", "splat",  "pull-push", "split",
-                                     "light",      "merge",    "filter", NULL};
+static const char *const stages[] = {"importance", "seed",     "grid",      "assign",    "sort",
+                                     "update",     "geometry", "splat",     "pull-push", "cluster",
+                                     "maps",       "basis",    "prefilter", "split",     "light",
+                                     "merge",      "filter",   NULL};
 
 struct rsc_state {
     struct irb_gl *gl; /* borrowed */
@@ -42,8 +48,12 @@ struct rsc_state {
     struct irb_importance *importance;
     struct irb_pyramid *pyramid;
     struct rsc_clusters *clusters;
-    struct rsc_pictures *pictures; /* for debugging, when first asked for */
+    struct rsc_pictures *pictures;  /* for debugging, when first asked for */
+    struct irb_shadow_term *shadow; /* likewise, of the image's size */
 };
+
+/* Tallest debug layer, texels (methods/method.h). */
+enum { TALLEST_LAYER = 16384 };
 
 static void destroy_clustering(struct rsc_state *s)
 {
@@ -66,6 +76,7 @@ static void rsc_destroy(void *user)
     rsc_lighting_destroy(&s->lighting);
     rsc_area_lights_destroy(s->lights);
     irb_texture_destroy(s->irradiance);
+    irb_shadow_term_destroy(s->shadow);
     free(s);
 }
 
@@ -81,8 +92,10 @@ static bool rsc_resize(void *user, int width, int height, struct irb_error *err)
         return false;
     irb_texture_destroy(s->irradiance);
     rsc_pictures_destroy(s->pictures);
+    irb_shadow_term_destroy(s->shadow);
     s->irradiance = irradiance;
     s->pictures = NULL;
+    s->shadow = NULL;
     s->width = width;
     s->height = height;
     return true;
@@ -98,7 +111,8 @@ static void *rsc_create(struct irb_gl *gl, const struct irb_scene_gl *scene, int
         irb_fail(err, IRB_E_MEMORY, "rsm-clustering: out of memory");
         return NULL;
     }
-    s->gl = s->lighting.gl = gl;
+    s->gl = gl;
+    rsc_lighting_init(&s->lighting, gl);
     s->lights = rsc_area_lights_create(gl, err);
     if (s->lights && rsc_resize(s, width, height, err))
         return s;
@@ -154,27 +168,74 @@ static bool cluster(struct rsc_state *s, const struct irb_frame_inputs *in,
     return ok;
 }
 
-static bool light(struct rsc_state *s, const struct irb_frame_inputs *in,
+/* The split G-buffer, shadows from imperfect maps or none. */
+static bool shade(struct rsc_state *s, const struct irb_frame_inputs *in,
                   const struct rsc_resolved *r, struct irb_error *err)
 {
     struct rsc_lighting *l = &s->lighting;
     const struct irb_virtual_lights discs = rsc_area_lights_discs(s->lights);
     const struct irb_virtual_lights lights = rsc_area_lights_view(s->lights);
-    const struct irb_ism *maps = rsc_has_shadows(r) ? l->ism : NULL;
+    const struct irb_ism *maps = rsc_has_ism(r) ? l->ism : NULL;
     bool ok = true;
     if (maps) {
         IRB_STAGE(ok, in, STAGE_SPLAT,
                   irb_ism_splat(l->ism, in->scene, l->points, &discs, &r->ism, err));
         IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
     }
-    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
     IRB_STAGE(ok, in, STAGE_LIGHT,
               irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
+    return ok;
+}
+
+/* Likewise, shadows from VALs: maps and light, batch by batch. */
+static bool shade_clustered(struct rsc_state *s, const struct irb_frame_inputs *in,
+                            const struct rsc_resolved *r, struct irb_error *err)
+{
+    struct rsc_lighting *l = &s->lighting;
+    struct irb_val_lighting *vl = &l->val_lighting;
+    const struct irb_val_lighting_settings *settings = &r->val_lighting;
+    const struct irb_virtual_lights discs = rsc_area_lights_discs(s->lights);
+    const int tiles = l->interleave->n * l->interleave->m;
+    struct irb_val_batch batch = {.count = -1};
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_CLUSTER,
+              irb_vals_cluster(l->vals, &discs, &r->vals, err) &&
+                  irb_vals_order(l->vals, &discs, tiles, err));
+    while (ok && irb_val_lighting_next(vl, settings, r->vals.vals, &batch)) {
+        IRB_STAGE(ok, in, STAGE_MAPS,
+                  irb_val_lighting_maps(vl, in->scene, l->vals, settings, &batch, err));
+        IRB_STAGE(ok, in, STAGE_BASIS, irb_csm_basis(vl->csm, vl->maps, &settings->csm, err));
+        IRB_STAGE(ok, in, STAGE_PREFILTER, irb_csm_prefilter(vl->csm, err));
+        IRB_STAGE(ok, in, STAGE_LIGHT,
+                  irb_val_lighting_run(vl, l->interleave, l->vals, settings, &batch, err));
+    }
+    return ok;
+}
+
+static bool light(struct rsc_state *s, const struct irb_frame_inputs *in,
+                  const struct rsc_resolved *r, struct irb_error *err)
+{
+    struct rsc_lighting *l = &s->lighting;
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
+    ok = ok && (r->is_clustered ? shade_clustered(s, in, r, err) : shade(s, in, r, err));
     IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(l->interleave, err));
     IRB_STAGE(
         ok, in, STAGE_FILTER,
         irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
     return ok;
+}
+
+static bool report_vals(const struct rsc_state *s, struct irb_frame_output *out,
+                        struct irb_error *err)
+{
+    struct irb_vals_statistics statistics;
+    if (!irb_vals_statistics(s->lighting.vals, &statistics, err))
+        return false;
+    irb_output_statistic(out, "vals", statistics.in_use);
+    irb_output_statistic(out, "iterations", statistics.iterations);
+    irb_output_statistic(out, "converged", statistics.converged);
+    return true;
 }
 
 /* Outside the stages: the report is no part of the method's cost. */
@@ -191,11 +252,28 @@ static bool report(struct rsc_state *s, const struct irb_frame_inputs *in,
     irb_output_statistic(out, "seeded", census.seeded);
     irb_output_statistic(out, "lit_texels", census.lit);
     irb_output_statistic(out, "lost_texels", census.lost);
+    return !r->is_clustered || report_vals(s, out, err);
+}
+
+/* What is in shadow; the VALs' maps where one layer holds them. */
+static bool draw_shadows(struct rsc_state *s, const struct rsc_resolved *r,
+                         struct irb_frame_output *out, struct irb_error *err)
+{
+    if (!s->shadow && !(s->shadow = irb_shadow_term_create(s->gl, s->width, s->height, err)))
+        return false;
+    if (!irb_shadow_term_draw(s->shadow, s->irradiance, err))
+        return false;
+    irb_output_layer(out, "shadow", s->shadow->image, IRB_DEBUG_SCALAR);
+    const struct irb_texture *maps =
+        r->is_clustered ? s->lighting.val_lighting.maps->distance : NULL;
+    if (maps && maps->height * (int64_t)maps->layers <= TALLEST_LAYER)
+        irb_output_layer(out, "maps", maps, IRB_DEBUG_DISTANCE);
     return true;
 }
 
 static bool draw_pictures(struct rsc_state *s, const struct irb_frame_inputs *in,
-                          struct irb_frame_output *out, struct irb_error *err)
+                          const struct rsc_resolved *r, struct irb_frame_output *out,
+                          struct irb_error *err)
 {
     if (!s->pictures && !(s->pictures = rsc_pictures_create(s->gl, s->clusters->resolution,
                                                             s->width, s->height, err)))
@@ -209,7 +287,7 @@ static bool draw_pictures(struct rsc_state *s, const struct irb_frame_inputs *in
     irb_output_layer(out, "clustered-flux", p->clustered, IRB_DEBUG_COLOUR);
     irb_output_layer(out, "cluster-centres", p->centres, IRB_DEBUG_COLOUR);
     irb_output_layer(out, "area-lights", p->lights, IRB_DEBUG_COLOUR);
-    return true;
+    return !(rsc_has_ism(r) || r->is_clustered) || draw_shadows(s, r, out, err);
 }
 
 static bool rsc_render_frame(void *user, const struct irb_frame_inputs *in,
@@ -225,7 +303,7 @@ static bool rsc_render_frame(void *user, const struct irb_frame_inputs *in,
         return false;
     s->frame++;
     return cluster(s, in, &r, err) && light(s, in, &r, err) && report(s, in, &r, out, err) &&
-           (!in->debug || draw_pictures(s, in, out, err));
+           (!in->debug || draw_pictures(s, in, &r, out, err));
 }
 
 const struct irb_method irb_method_rsm_clustering = {

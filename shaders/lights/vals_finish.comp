@@ -23,14 +23,16 @@ void main()
     if (v >= val_count)
         return;
     vec3 c = means[2 * v].xyz, n = means[2 * v + 1].xyz, member = c, flux = vec3(0.0);
-    float count = 0.0, height = 0.0, moment = 0.0, farthest = 0.0;
+    float count = 0.0, height = 0.0, moment = 0.0, farthest = 0.0, area = 0.0;
     float least = uintBitsToFloat(0x7f7fffffu); /* largest float */
     for (int l = 0; l < vpl_count; l++)
         if (assignment[l] == uint(v)) {
             vec3 x = vpls[VPL_VECTORS * l].xyz, d = x - c;
-            float r2 = dot(d, d);
-            moment += r2;
-            farthest = max(farthest, r2);
+            float r2 = dot(d, d), own = vpls[VPL_VECTORS * l].w * (1.0 / PI); /* 0 of a point */
+            float reach = sqrt(r2) + sqrt(own);
+            moment += r2 + 0.5 * own;
+            farthest = max(farthest, own > 0.0 ? reach * reach : r2);
+            area = vpls[VPL_VECTORS * l].w;
             height = max(height, dot(n, d));
             member = r2 < least ? x : member;
             least = min(least, r2);
@@ -38,8 +40,8 @@ void main()
             count += 1.0;
         }
     float radius2 = extent == 0 ? 2.0 * moment / max(count, 1.0) : farthest;
-    /* one VPL is a point, whatever its mean is rounded to */
-    float area = count > 1.0 ? PI * radius2 : 0.0;
+    /* one VPL keeps its own area, whatever its mean is rounded to */
+    area = count > 1.0 ? PI * radius2 : area;
     vals[VPL_VECTORS * v] = vec4(stand == 0 ? c : stand == 1 ? c + height * n : member, area);
     vals[VPL_VECTORS * v + 1] = count > 0.0 ? vec4(n, count) : vec4(0.0);
     vals[VPL_VECTORS * v + 2] = vec4(flux, 0.0);

@@ -2,6 +2,7 @@
  *
  * k-means over the VPLs, in one work group (Dong et al. 2009; thesis 3.2.5): assign each VPL to the
  * VAL of least mu (eq. 3.7), put each VAL at the mean of its VPLs, and again until nothing changes.
+ * Dark ones have no VAL.
  *
  * llvmpipe ends all loops of an invocation after 65535 rounds in total (LP_MAX_TGSI_LOOP_ITERATIONS),
  * so a dispatch makes as many iterations as fit, and the next one goes on.
@@ -14,6 +15,7 @@ layout(local_size_x = GROUP) in;
 #include "lights/virtual_light.glsl"
 
 layout(std430, binding = 0) readonly buffer Vpls { vec4 vpls[]; };
+#include "lights/vals_lit.glsl"
 layout(std430, binding = 2) buffer Assignment { uint assignment[]; };
 layout(std430, binding = 5) buffer Means { vec4 means[]; };
 #include "lights/vals_statistics.glsl"
@@ -26,7 +28,6 @@ uniform int iterations;      /* of this dispatch, at most */
 uniform float weight_distance; /* 1/m */
 uniform float weight_angle;    /* 1/rad */
 
-const uint NONE = 0xffffffffu;
 const float PI = 3.14159265358979324;
 /* Shorter sums of unit normals, per VPL, have no direction: the first one's stands in. Source: ours. */
 const float LEAST_NORMAL = 1e-4;
@@ -52,15 +53,27 @@ int vpl_of_point(int p)
     return (p - tile * length - min(tile, longer)) * tiles + tile;
 }
 
+/* Number of the VPL that is the v-th lit one of the sequence's stretch; -1: there are fewer. */
+int lit_vpl(int v)
+{
+    int found = -1;
+    for (int p = 0; p < vpl_count && v >= 0; p++) {
+        int l = vpl_of_point(p);
+        found = is_lit(l) && v == 0 ? l : found;
+        v -= is_lit(l) ? 1 : 0;
+    }
+    return found;
+}
+
 void start(int v)
 {
     if (fresh == 0 || reuse != 0) {
         centre[v] = means[2 * v];
         normal[v] = means[2 * v + 1].xyz;
     } else {
-        int l = v < vpl_count ? vpl_of_point(v) : 0;
-        centre[v] = vec4(vpls[VPL_VECTORS * l].xyz, v < vpl_count ? 1.0 : 0.0);
-        normal[v] = vpls[VPL_VECTORS * l + 1].xyz;
+        int l = lit_vpl(v);
+        centre[v] = vec4(vpls[VPL_VECTORS * max(l, 0)].xyz, l >= 0 ? 1.0 : 0.0);
+        normal[v] = vpls[VPL_VECTORS * max(l, 0) + 1].xyz;
     }
 }
 
@@ -115,14 +128,14 @@ void main()
     for (int v = i; v < val_count; v += GROUP)
         start(v);
     for (int l = i; l < vpl_count; l += GROUP)
-        val_of[l] = fresh != 0 ? NONE : assignment[l];
+        val_of[l] = fresh != 0 ? NO_VAL : assignment[l];
     int iteration = 0;
     while (iteration < iterations && !converged) {
         if (i == 0)
             changed = 0;
         sync();
         for (int l = i; l < vpl_count; l += GROUP) {
-            uint best = nearest(l);
+            uint best = is_lit(l) ? nearest(l) : NO_VAL;
             if (best != val_of[l])
                 atomicOr(changed, 1);
             val_of[l] = best;
