@@ -33,4 +33,22 @@ static inline void irb_halton_2d(uint32_t index, float point[2])
     }
 }
 
+/* Points that seeds and frames share out: as many are exact in the radical inverses. */
+enum { IRB_HALTON_POINTS = 1 << 30 };
+
+/* Index of the first of `points` (1..IRB_HALTON_POINTS) points for a seed and a frame. The sequence
+ * is cut into stretches of that length, counted round. Frame 0, which is for who takes the same in
+ * every frame, has the stretch of the seed's number: seeds share no points but where they differ by
+ * a multiple of the number of stretches. Each further frame is a golden section of them on. Of
+ * seeds that differ by d, frames take the same stretch only where they are 0.44/(d + 1) of so many
+ * frames apart: multiples n of the golden section are at least 1/(sqrt(5) n) from whole numbers
+ * (Hurwitz 1891). */
+static inline uint32_t irb_halton_stretch(uint64_t seed, uint32_t frame, uint32_t points)
+{
+    const uint64_t stretches = (uint32_t)IRB_HALTON_POINTS / points;
+    const uint64_t turned = frame * UINT64_C(0x9e3779b97f4a7c15); /* golden section of 2^64 */
+    const uint64_t step = (turned >> 32) * stretches >> 32;
+    return (uint32_t)((seed % stretches + step) % stretches) * points;
+}
+
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/acrsm/params.h"
 
+#include "core/sampling/halton.h"
+
 #include <math.h>
 
 /* Of an RSM that the thesis's sizes in texels are for (5.1.1). */
@@ -252,7 +254,6 @@ void acrsm_params_resolve(const struct acrsm_params *p, int rsm_resolution, floa
                           uint64_t seed, struct acrsm_resolved *out)
 {
     const int smoothstep = p->smoothstep ? 5 : 3;
-    const unsigned view_points = (unsigned)(seed & 0xffff) * IRB_IMPORTANCE_MOST_VIEW_SAMPLES;
     *out = (struct acrsm_resolved){
         .clustering = clustering_of(p, rsm_resolution, diagonal),
         .importance = {.diffuse_weight = p->w_d,
@@ -260,7 +261,7 @@ void acrsm_params_resolve(const struct acrsm_params *p, int rsm_resolution, floa
                        .view_samples = p->view_samples,
                        .norm = choose(p, p->importance_norm, IRB_IMPORTANCE_NORM_MAX,
                                       IRB_IMPORTANCE_NORM_NONE),
-                       .first = view_points},
+                       .first = irb_halton_stretch(seed, 0, IRB_IMPORTANCE_MOST_VIEW_SAMPLES)},
         .points = {.kind = IRB_POINTS_TESSELLATION,
                    .f_min = p->f_min,
                    .f_max = p->f_max,

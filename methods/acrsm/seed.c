@@ -4,11 +4,13 @@
  */
 #include "methods/acrsm/clusters.h"
 
+#include "core/sampling/halton.h"
+
 #include <string.h>
 
-/* Seeds of the sequence start that many Halton points apart, so that they share none for a while;
- * 2^30 points are exact in the radical inverses. */
-enum { POINTS_APART = 1 << 14, POINTS = 1 << 30 };
+/* Halton points that a sequence may take until it gets to those of another seed. Sequences begin in
+ * the first half of all, so that what follows is exact, too. */
+enum { POINTS_APART = 1 << 14, SEQUENCES = IRB_HALTON_POINTS / POINTS_APART / 2 };
 
 static struct acrsm_light_pose pose_of(const struct irb_rsm *rsm)
 {
@@ -93,8 +95,7 @@ bool acrsm_seed(struct acrsm_clusters *c, const struct irb_rsm *rsm,
     irb_program_int(program, "active_count", c->active);
     irb_program_int(program, "reseed", s->reseed);
     irb_program_int(program, "levels", s->warp_levels);
-    irb_program_uint(program, "first",
-                     (unsigned)((uint64_t)c->seed * POINTS_APART % (uint64_t)(POINTS / 2)));
+    irb_program_uint(program, "first", irb_halton_stretch(c->seed % SEQUENCES, 0, POINTS_APART));
     acrsm_dispatch(c, c->active);
     return irb_gl_check(c->gl, "acrsm: seed", err);
 }

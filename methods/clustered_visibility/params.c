@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/clustered_visibility/params.h"
 
+#include "core/sampling/halton.h"
+
 enum { UNIT_METRES, UNIT_BBOX };
 static const char *const units[] = {"metres", "bbox", NULL};
 enum { VISIBILITY_NONE, VISIBILITY_CLUSTERED };
@@ -106,13 +108,6 @@ const struct irb_option cv_options[] = {
 };
 #undef P
 
-/* Seed s takes the s-th stretch of the Halton sequence, so that seeds share no points; 2^30 points
- * are exact in the radical inverses. */
-static unsigned first_point(uint64_t seed, int samples)
-{
-    return (unsigned)((seed * (uint64_t)samples) & ((1u << 30) - 1));
-}
-
 static struct irb_vals_settings clustering_of(const struct cv_params *p, float diagonal)
 {
     const float unit = p->metric_unit == UNIT_BBOX && diagonal > 0 ? diagonal : 1;
@@ -151,7 +146,7 @@ void cv_params_resolve(const struct cv_params *p, float diagonal, uint64_t seed,
 {
     *out = (struct cv_resolved){
         .vpls = p->vpls,
-        .first = first_point(seed, p->vpls),
+        .first = irb_halton_stretch(seed, 0, (uint32_t)p->vpls),
         .clustering = clustering_of(p, diagonal),
         .lighting = lighting_of(p, diagonal),
         .interleave = p->interleave,

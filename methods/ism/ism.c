@@ -10,6 +10,7 @@
 #include "methods/method.h"
 
 #include "core/frame/shadow_term.h"
+#include "core/sampling/halton.h"
 #include "core/sampling/sobol.h"
 #include "methods/ism/objects.h"
 
@@ -80,18 +81,16 @@ static bool ism_begin_sequence(void *user, const void *settings, uint64_t seed,
     return true; /* no history */
 }
 
-/* The Halton sequence in stretches of `count` points: seed s takes the s-th in every frame, or,
- * with the sequence `random`, one that it and the frame's number choose. 2^30 points are exact in
- * the radical inverses. */
+/* The same points in every frame, or, with the sequence `random`, some that the seed and the
+ * frame's number choose. */
 static unsigned first_point(const struct ism_params *p, const struct irb_frame_inputs *in,
                             int count)
 {
-    const uint32_t stretches = (1u << 30) / (uint32_t)count;
-    uint64_t stretch = in->seed;
+    uint64_t seed = in->seed;
     if (p->sequence == ISM_RANDOM)
-        stretch = irb_hash_u32(irb_hash_u32((uint32_t)in->seed, (uint32_t)(in->seed >> 32)),
-                               (uint32_t)in->frame);
-    return (uint32_t)(stretch % stretches) * (uint32_t)count;
+        seed = irb_hash_u32(irb_hash_u32((uint32_t)in->seed, (uint32_t)(in->seed >> 32)),
+                            (uint32_t)in->frame);
+    return irb_halton_stretch(seed, 0, (uint32_t)count);
 }
 
 static bool sample(struct ism_objects *o, const struct irb_frame_inputs *in, struct irb_error *err)

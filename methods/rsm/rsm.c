@@ -5,6 +5,7 @@
  * interpolation of its section 4.2.
  */
 #include "methods/method.h"
+#include "core/sampling/halton.h"
 #include "methods/rsm/energy.h"
 #include "methods/rsm/gather.h"
 #include "methods/rsm/lowres.h"
@@ -157,13 +158,6 @@ static bool rsm_begin_sequence(void *user, const void *settings, uint64_t seed,
     return true; /* no history */
 }
 
-/* Seed s takes the s-th stretch of the Halton sequence, so that seeds share no points; 2^30 points
- * are exact in the radical inverses. */
-static unsigned first_point(uint64_t seed, int samples)
-{
-    return (unsigned)((seed * (uint64_t)samples) & ((1u << 30) - 1));
-}
-
 /* Lengths relative to the scene, in metres. The bounds are those at rest: the same in all frames.
  */
 struct lengths {
@@ -203,7 +197,7 @@ static bool sample(struct rsm_state *state, const struct irb_frame_inputs *in,
                    const struct lengths *lengths, struct irb_error *err)
 {
     const struct rsm_params *p = in->params;
-    const unsigned first = first_point(in->seed, p->samples);
+    const unsigned first = irb_halton_stretch(in->seed, 0, (uint32_t)p->samples);
     if (p->mode == MODE_POLAR) {
         const struct rsm_pattern pattern = {.samples = p->samples,
                                             .radius = p->r_max,

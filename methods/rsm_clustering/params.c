@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/rsm_clustering/params.h"
 
+#include "core/sampling/halton.h"
+
 /* Weight that the view-independent importance keeps at least: without effect on where seeds fall,
  * but for a view that no lit texel faces, where they fall by it alone. Source: ours. */
 static const float least_brdf_weight = 1e-6f;
@@ -137,18 +139,10 @@ const struct irb_option rsc_options[] = {
 };
 #undef P
 
-/* Stretches of the Halton sequence, so that seeds share no points; 2^30 points are exact in the
- * radical inverses. */
-static unsigned halton_stretch(uint64_t index, unsigned length)
-{
-    return (unsigned)((index * length) & ((1u << 30) - 1));
-}
-
 static struct rsc_settings clustering_of(const struct rsc_params *p, float diagonal, uint64_t seed,
                                          unsigned frame)
 {
     const float unit = p->metric_unit == UNIT_BBOX && diagonal > 0 ? diagonal : 1;
-    const uint64_t stretch = p->reseed == RESEED_NEXT ? (seed << 20) + frame : seed;
     return (struct rsc_settings){
         .clusters = p->clusters,
         .weight_distance = p->w_d / unit / unit,
@@ -156,7 +150,8 @@ static struct rsc_settings clustering_of(const struct rsc_params *p, float diago
         .weight_colour = p->w_phi,
         .reach = p->assignment == ASSIGN_BRUTE ? -1 : p->reach,
         .reduction = (enum rsc_reduction)p->reduction,
-        .first = halton_stretch(stretch, (unsigned)p->clusters),
+        .first =
+            irb_halton_stretch(seed, p->reseed == RESEED_NEXT ? frame : 0, (uint32_t)p->clusters),
     };
 }
 
@@ -229,7 +224,7 @@ bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t see
                        .view_weight = p->view_weight < 1 ? p->view_weight : 1 - least_brdf_weight,
                        .view_samples = p->view_samples,
                        .norm = IRB_IMPORTANCE_NORM_MAX,
-                       .first = halton_stretch(seed, (unsigned)p->view_samples),
+                       .first = irb_halton_stretch(seed, 0, (uint32_t)p->view_samples),
                        .view_form = IRB_IMPORTANCE_GEOMETRY,
                        .view_nearest = p->view_nearest * (diagonal > 0 ? diagonal : 1)},
         .clustering = clustering_of(p, diagonal, seed, frame),

@@ -8,6 +8,8 @@
 #include "core/sampling/sobol.h"
 #include "tests/support/compare.h"
 
+#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void test_halton_first_values(void **state)
@@ -55,6 +57,46 @@ static void require_net(const struct irb_sobol_set *set, uint32_t first, int k)
         }
         for (int i = 0; i < 1 << k; i++)
             REQUIRE_CMP(hits[i], ==, 1);
+    }
+}
+
+/* Stretches begin at whole multiples of their length and end within the sequence, whatever the seed
+ * and the frame; frame 0 has that of the seed's number. */
+static void test_stretches(void **state)
+{
+    (void)state;
+    const uint32_t lengths[] = {1, 7, 400, 1024, 16384, 1 << 20, 1 << 29, 1 << 30};
+    const uint64_t seeds[] = {0, 1, 2, 1000000, UINT32_MAX, (uint64_t)1 << 63, UINT64_MAX};
+    const uint32_t frames[] = {0, 1, 2, 999, UINT32_MAX};
+    for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++)
+        for (size_t s = 0; s < sizeof seeds / sizeof *seeds; s++)
+            for (size_t f = 0; f < sizeof frames / sizeof *frames; f++) {
+                uint32_t first = irb_halton_stretch(seeds[s], frames[f], lengths[l]);
+                assert_int_equal(first % lengths[l], 0);
+                REQUIRE_CMP((uint64_t)first + lengths[l], <=, IRB_HALTON_POINTS);
+                if (seeds[s] * lengths[l] < IRB_HALTON_POINTS && seeds[s] < 3 && !frames[f])
+                    assert_int_equal(first, seeds[s] * lengths[l]);
+            }
+}
+
+/* Ten seeds, as many frames as are promised: every one has points of its own. */
+static void test_stretches_are_apart(void **state)
+{
+    (void)state;
+    const uint32_t lengths[] = {256, 400, 1024, 5000, 16384, 1 << 20};
+    for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
+        const uint32_t stretches = (uint32_t)IRB_HALTON_POINTS / lengths[l];
+        const uint32_t promised = (uint32_t)(0.44 / 10 * stretches);
+        bool *taken = calloc(stretches, sizeof *taken);
+        assert_non_null(taken);
+        for (uint64_t seed = 1; seed <= 10; seed++)
+            for (uint32_t frame = 0; frame < promised; frame++) {
+                bool *t = &taken[irb_halton_stretch(seed, frame, lengths[l]) / lengths[l]];
+                if (*t)
+                    fail_msg("seed %d, frame %u, %u points: taken", (int)seed, frame, lengths[l]);
+                *t = true;
+            }
+        free(taken);
     }
 }
 
@@ -128,6 +170,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_halton_first_values), cmocka_unit_test(test_halton_stays_below_one),
+        cmocka_unit_test(test_stretches),           cmocka_unit_test(test_stretches_are_apart),
         cmocka_unit_test(test_sobol_is_a_net),      cmocka_unit_test(test_unscrambled_points),
         cmocka_unit_test(test_seeds_are_uniform),   cmocka_unit_test(test_sets_are_independent),
     };
