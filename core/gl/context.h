@@ -43,6 +43,13 @@ struct irb_gl {
     unsigned empty_vertex_array; /* for draws that take no attributes */
 };
 
+/* Rounds that all loops of one shader invocation may make together. llvmpipe ends them after 65535
+ * (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm/lp_bld_limits.h), without an error; a loop of n
+ * rounds counts n + 1 times, and lanes of one vector share the count. Shaders that may need more
+ * stop here and go on in another dispatch, on any driver, so that all give the same sums. The rest
+ * is for short loops that nobody counts. */
+enum { IRB_LOOP_ROUNDS_MOST = 60000 };
+
 /* auto: EGL on hardware, else OSMesa, else EGL in software. NULL with IRB_E_BACKEND when there is
  * none; the message says for each backend what was missing. IRB_BACKEND_NULL is for commands that
  * need no context and do not call this: here it fails with a message that says so. IRB_E_INPUT

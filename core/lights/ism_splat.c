@@ -183,6 +183,33 @@ static int lights_abreast(int lights)
     return abreast;
 }
 
+/* Rounds of loops that a splat of s->splat_most texels a side takes. */
+static int splat_rounds(const struct irb_ism *ism, const struct irb_ism_settings *s)
+{
+    const int side = s->splat_most < ism->map_size ? s->splat_most : ism->map_size;
+    return side * side + 2;
+}
+
+/* One chunk, in as many dispatches as IRB_LOOP_ROUNDS_MOST asks for where all splats are as large
+ * as they may get: some of the maps each, or one map and some of each invocation's points. */
+static void dispatch_atomic(const struct irb_ism *ism, const struct irb_program *program,
+                            const struct irb_ism_settings *s, uint32_t groups,
+                            uint32_t light_groups)
+{
+    const int in_all = most_maps(s), fit = IRB_LOOP_ROUNDS_MOST / splat_rounds(ism, s);
+    const int points = fit > POINTS_AN_INVOCATION ? POINTS_AN_INVOCATION : fit > 0 ? fit : 1;
+    const int maps = fit > POINTS_AN_INVOCATION ? fit / POINTS_AN_INVOCATION : 1;
+    for (int map = 0; map < in_all; map += maps)
+        for (int point = 0; point < POINTS_AN_INVOCATION; point += points) {
+            const int rest = POINTS_AN_INVOCATION - point;
+            irb_program_int(program, "map_begin", map);
+            irb_program_int(program, "map_end", map + maps < in_all ? map + maps : in_all);
+            irb_program_int(program, "point_begin", point);
+            irb_program_int(program, "point_end", point + (rest < points ? rest : points));
+            ism->gl->api.DispatchCompute(groups, light_groups, 1);
+        }
+}
+
 static void splat_atomic(const struct irb_ism *ism, const struct irb_program *program,
                          const struct irb_points *points, const struct irb_ism_settings *settings)
 {
@@ -190,14 +217,13 @@ static void splat_atomic(const struct irb_ism *ism, const struct irb_program *pr
     const uint32_t lights = (uint32_t)ism->count;
     const uint32_t abreast = (uint32_t)lights_abreast(ism->count);
     const uint32_t rounds_a_group = GROUP / abreast * POINTS_AN_INVOCATION;
-    irb_program_int(program, "most_maps", most_maps(settings));
     irb_program_int(program, "abreast", (int)abreast);
     api->BindImageTexture(0, ism->atlas->id, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     for (int i = 0; i < points->chunk_count; i++) {
         const uint32_t rounds = (points->chunks[i].count + lights - 1) / lights;
         bind_chunk(ism, program, &points->chunks[i]);
-        api->DispatchCompute((rounds + rounds_a_group - 1) / rounds_a_group,
-                             (lights + abreast - 1) / abreast, 1);
+        dispatch_atomic(ism, program, settings, (rounds + rounds_a_group - 1) / rounds_a_group,
+                        (lights + abreast - 1) / abreast);
     }
     api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                        GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);

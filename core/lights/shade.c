@@ -199,28 +199,45 @@ static void set_settings(const struct irb_program *program, const struct irb_sha
     irb_program_float(program, "offset", s->offset);
 }
 
-/* The lights of one uniform block that lie in the batch. */
+/* Lights that one dispatch may take: of each tile as many as IRB_LOOP_ROUNDS_MOST lets a pixel go
+ * through with all taps and both loops over a polygon's corners. */
+static int lights_at_once(const struct irb_shade_settings *s, const struct irb_interleave *il,
+                          int corners)
+{
+    const int taps = s->visibility == IRB_SHADE_PCSS ? s->blocker_taps + s->taps + 2 : 0;
+    return IRB_LOOP_ROUNDS_MOST / (1 + taps + (corners ? corners + 2 : 0)) * il->n * il->m;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The lights of one uniform block that lie in the batch, up to `at_once` of them in a dispatch. */
 static void dispatch(const struct irb_shade *shade, const struct irb_program *program,
                      const struct irb_interleave *il, const struct irb_virtual_lights *lights,
-                     int block, const struct irb_shade_batch *batch, int side)
+                     int block, const struct irb_shade_batch *batch, int side, int at_once)
 {
     const struct irb_gl_api *api = &shade->gl->api;
     const int lights_a_block = block_lights(lights->corners);
     const int64_t bytes = (int64_t)lights_a_block * (IRB_VPL_BYTES + 8 * lights->corners);
     const int base = block * lights_a_block;
-    const int begin = batch->first > base ? batch->first - base : 0;
-    const int end = batch->first + batch->count - base;
+    const int first = batch->first > base ? batch->first - base : 0;
+    const int end = least(batch->first + batch->count - base, lights_a_block);
 
     irb_program_int(program, "light_base", base);
-    irb_program_int(program, "light_begin", begin);
-    irb_program_int(program, "light_end", end < lights_a_block ? end : lights_a_block);
-    irb_program_int(program, "accumulate", batch->accumulate || begin + base > batch->first);
     api->BindBufferRange(GL_UNIFORM_BUFFER, LIGHTS_BINDING, lights->buffer->id, block * bytes,
                          bytes);
-    api->DispatchCompute((unsigned)((il->tile_width + side - 1) / side),
-                         (unsigned)((il->tile_height + side - 1) / side),
-                         (unsigned)(il->n * il->m));
-    api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    /* no lights at all still take one dispatch, which writes zeros */
+    for (int begin = first; begin == first || begin < end; begin += at_once) {
+        irb_program_int(program, "light_begin", begin);
+        irb_program_int(program, "light_end", least(begin + at_once, end));
+        irb_program_int(program, "accumulate", batch->accumulate || begin + base > batch->first);
+        api->DispatchCompute((unsigned)((il->tile_width + side - 1) / side),
+                             (unsigned)((il->tile_height + side - 1) / side),
+                             (unsigned)(il->n * il->m));
+        api->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
 }
 
 bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *il,
@@ -242,11 +259,11 @@ bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *il,
     bind_maps(program, ism, raster, batch->first);
     set_settings(program, settings);
     const int side = GROUP * tile_of(shade, settings->visibility, lights->corners);
+    const int at_once = lights_at_once(settings, il, lights->corners);
     const int first = batch->count > 0 ? batch->first / block_lights(lights->corners) : 0;
     const int last = (batch->first + batch->count - 1) / block_lights(lights->corners);
-    /* no lights at all still take one dispatch, which writes zeros */
     for (int block = first; block == first || block <= last; block++)
-        dispatch(shade, program, il, lights, block, batch, side);
+        dispatch(shade, program, il, lights, block, batch, side, at_once);
     shade->gl->api.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
                                  GL_FRAMEBUFFER_BARRIER_BIT);
     return irb_gl_check(shade->gl, "shade", err);

@@ -67,7 +67,8 @@ void irb_shade_destroy(struct irb_shade *shade);
 
 /* Fills interleave->split from all lights. Tile t takes the lights l with l mod (n m) = t; light l
  * has map l of `ism` (NULL for NONE). Without lights all is 0. Never NaN or Inf for finite inputs.
- * Same input, same bits. */
+ * Same input, same bits. Many lights with many taps take several dispatches, as if they were
+ * batches (core/gl/context.h, IRB_LOOP_ROUNDS_MOST; from 56 taps of 1024 lights of a tile on). */
 bool irb_shade_run(struct irb_shade *shade, struct irb_interleave *interleave,
                    const struct irb_virtual_lights *lights, const struct irb_ism *ism,
                    const struct irb_shade_settings *settings, struct irb_error *err);

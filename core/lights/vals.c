@@ -20,8 +20,6 @@ enum {
     MEANS_BINDING
 };
 enum { KMEANS_GROUP = 256, GROUP = 64 };
-/* Rounds of all loops of one invocation of kmeans.comp, below llvmpipe's 65535. */
-enum { MOST_ROUNDS = 60000 };
 
 struct statistics_record {
     uint32_t in_use, iterations, converged;
@@ -106,14 +104,14 @@ static void bind(const struct irb_vals *v, const struct irb_virtual_lights *vpls
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, MEANS_BINDING, v->means->id);
 }
 
-/* Dispatches that make up to s->iterations, each as many as llvmpipe's limit lets it; those after
- * convergence do nothing. */
+/* Dispatches that make up to s->iterations, each as many as IRB_LOOP_ROUNDS_MOST lets it; those
+ * after convergence do nothing. */
 static void iterate(const struct irb_vals *v, int vpls, const struct irb_vals_settings *s,
                     bool reuse)
 {
     const int own = (vpls + KMEANS_GROUP - 1) / KMEANS_GROUP; /* VPLs of one invocation */
     const int rounds = own * (s->vals + 3) + vpls + 4;
-    const int at_once = (MOST_ROUNDS - vpls) / rounds; /* less the search for lit ones */
+    const int at_once = (IRB_LOOP_ROUNDS_MOST - vpls) / rounds; /* less the search for lit ones */
 
     irb_program_use(v->kmeans);
     irb_program_int(v->kmeans, "vpl_count", vpls);

@@ -7,7 +7,25 @@
 
 #include "core/frame/light_gl.h"
 
-enum { GROUP = 64 };
+/* shaders/methods/acrsm/average.comp, tiles.glsl: a bit of a word is a tile. */
+enum { GROUP = 64, TILE_SIDE = 32, WORD = 32, ROWS = TILE_SIDE * TILE_SIDE / GROUP };
+/* Rounds of loops over the tiles of a word, and words that so fit into a dispatch. */
+enum { WORD_ROUNDS = WORD * (ROWS + 2) + 2, WORDS = IRB_LOOP_ROUNDS_MOST / WORD_ROUNDS };
+
+static bool dispatch_words(struct acrsm_clusters *c, const struct irb_program *program,
+                           struct irb_error *err)
+{
+    const int tiles = (c->resolution + TILE_SIDE - 1) / TILE_SIDE;
+    const int words = (tiles * tiles + WORD - 1) / WORD;
+    if (words > WORDS && !acrsm_prepare_carry(c, err))
+        return false;
+    for (int first = 0; first < words; first += WORDS) {
+        irb_program_int(program, "first_word", first);
+        irb_program_int(program, "end_word", first + WORDS < words ? first + WORDS : words);
+        acrsm_dispatch(c, (int64_t)GROUP * c->active);
+    }
+    return true;
+}
 
 static bool average(struct acrsm_clusters *c, const struct irb_rsm *rsm,
                     const struct irb_light *light, const struct irb_texture *importance,
@@ -25,8 +43,7 @@ static bool average(struct acrsm_clusters *c, const struct irb_rsm *rsm,
     api->BindTextureUnit((GLuint)unit, c->map->id);
     irb_program_int(program, "cluster_map", unit);
     irb_program_int(program, "second_moment", s->area == ACRSM_AREA_MOMENT);
-    acrsm_dispatch(c, (int64_t)GROUP * c->active);
-    return true;
+    return dispatch_words(c, program, err);
 }
 
 static bool mark_centres(struct acrsm_clusters *c, struct irb_error *err)

@@ -17,8 +17,10 @@ enum {
     CANDIDATES_BINDING = 4,
     PRESENCE_BINDING = 5,
     LIGHTS_BINDING = 6,
+    CARRY_BINDING = 7,
 };
 enum { GROUP = 64, TILE_SIDE = 32 };
+enum { CARRY_BYTES = 64 }; /* of one invocation, at most */
 
 /* For acrsm_cluster.count; shaders/methods/acrsm/cluster.glsl. */
 enum { UNBORN = -1 };
@@ -133,6 +135,7 @@ void acrsm_clusters_destroy(struct acrsm_clusters *c)
     irb_buffer_destroy(c->candidates);
     irb_buffer_destroy(c->presence);
     irb_buffer_destroy(c->rows);
+    irb_buffer_destroy(c->carry);
     free(c);
 }
 
@@ -207,6 +210,15 @@ void acrsm_dispatch(const struct acrsm_clusters *c, int64_t invocations)
 {
     c->gl->api.DispatchCompute((unsigned)((invocations + GROUP - 1) / GROUP), 1, 1);
     acrsm_barrier(c);
+}
+
+bool acrsm_prepare_carry(struct acrsm_clusters *c, struct irb_error *err)
+{
+    const int64_t bytes = (int64_t)ACRSM_CLUSTERS_MOST * GROUP * CARRY_BYTES;
+    if (!c->carry && !(c->carry = irb_buffer_create(c->gl, "acrsm: carry", bytes, NULL, err)))
+        return false;
+    c->gl->api.BindBufferBase(GL_SHADER_STORAGE_BUFFER, CARRY_BINDING, c->carry->id);
+    return true;
 }
 
 uint32_t acrsm_frame_seed(const struct acrsm_clusters *c)

@@ -104,6 +104,7 @@ struct acrsm_clusters {
     struct irb_buffer *lights;     /* IRB_VPL_BLOCK virtual lights */
     struct irb_buffer *lists;      /* private, as the rest */
     struct irb_buffer *candidates, *presence, *rows;
+    struct irb_buffer *carry; /* sums that go on in another dispatch; when first asked for */
     struct irb_program *program[ACRSM_PROGRAMS]; /* each made when first asked for */
     enum irb_layout layout;                      /* of the RSM that they read */
     int resolution;
@@ -174,6 +175,9 @@ const struct irb_program *acrsm_program(struct acrsm_clusters *clusters, enum ac
 void acrsm_bind_buffers(const struct acrsm_clusters *clusters);
 void acrsm_dispatch(const struct acrsm_clusters *clusters, int64_t invocations);
 void acrsm_barrier(const struct acrsm_clusters *clusters);
+/* Makes and binds what a pass leaves for its next dispatch (core/gl/context.h,
+ * IRB_LOOP_ROUNDS_MOST); before a pass of several. */
+bool acrsm_prepare_carry(struct acrsm_clusters *clusters, struct irb_error *err);
 enum { ACRSM_MERGED_OFFSET = 4 }; /* bytes, in `lists`: merged, split, re-seeded; uint32 */
 uint32_t acrsm_frame_seed(const struct acrsm_clusters *clusters);
 

@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+enum { GROUP = 64 }; /* shaders/methods/acrsm/evaluate.comp */
+
 /* Clusters of the random order that are evaluated; k/3 in whole clusters, as in the thesis, for the
  * share that a float holds of a third. */
 static int selected_of(const struct acrsm_clusters *c, float share)
@@ -14,21 +16,41 @@ static int selected_of(const struct acrsm_clusters *c, float share)
     return count < c->active ? count : c->active;
 }
 
+/* By the map: the square in bands of GROUP rows, one a lane, as many in a dispatch as
+ * IRB_LOOP_ROUNDS_MOST lets it. */
+static bool dispatch_bands(struct acrsm_clusters *c, const struct irb_program *program, int side,
+                           struct irb_error *err)
+{
+    const int width = side < c->resolution ? side : c->resolution;
+    const int bands = (side + GROUP - 1) / GROUP, at_once = IRB_LOOP_ROUNDS_MOST / (width + 2);
+    if (bands > at_once && !acrsm_prepare_carry(c, err))
+        return false;
+    for (int first = 0; first < bands; first += at_once) {
+        irb_program_int(program, "first_band", first);
+        irb_program_int(program, "end_band", first + at_once < bands ? first + at_once : bands);
+        acrsm_dispatch(c, GROUP * (int64_t)c->active);
+    }
+    return true;
+}
+
 static bool verify(struct acrsm_clusters *c, const struct acrsm_settings *s, struct irb_error *err)
 {
     const bool by_map = s->neighbours == ACRSM_NEIGHBOURS_MAP;
     const struct irb_program *program =
         acrsm_program(c, by_map ? ACRSM_EVALUATE_MAP : ACRSM_EVALUATE, err);
-    const double side = fmin((double)s->square * s->neighbourhood, 2.0 * c->resolution);
+    const double texels = fmin((double)s->square * s->neighbourhood, 2.0 * c->resolution);
+    const int side = texels > 1 ? (int)texels : 1;
     if (!program)
         return false;
     irb_program_use(program);
     c->gl->api.BindTextureUnit(0, c->map->id);
     irb_program_int(program, "cluster_map", 0);
     irb_program_int(program, "active_count", c->active);
-    irb_program_int(program, "side", side > 1 ? (int)side : 1);
+    irb_program_int(program, "side", side);
     irb_program_uint(program, "seed", acrsm_frame_seed(c));
-    acrsm_dispatch(c, by_map ? 64 * (int64_t)c->active : c->active);
+    if (by_map)
+        return dispatch_bands(c, program, side, err);
+    acrsm_dispatch(c, c->active);
     return true;
 }
 

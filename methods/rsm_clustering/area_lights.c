@@ -96,9 +96,8 @@ bool rsc_area_lights_make(struct rsc_area_lights *lights, const struct rsc_clust
     api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, DISCS_BINDING, lights->discs->id);
     if (corners)
         api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, POLYGONS_BINDING, lights->polygons->id);
-    api->DispatchCompute((unsigned)(slots / GROUP), 1, 1);
-    api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT |
-                       GL_BUFFER_UPDATE_BARRIER_BIT);
+    rsc_members_dispatch(clusters, program, settings, corners + 2, (int)slots, GROUP);
+    api->MemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     lights->count = settings->clusters;
     lights->corners = corners;
     return irb_gl_check(lights->gl, "rsm-clustering: area lights", err);

@@ -8,10 +8,12 @@
 const char *const rsc_reduction_names[] = {"sort", "window", "direct", NULL};
 
 /* Storage bindings and work groups of shaders/methods/rsm_clustering/. */
-enum { CLUSTERS_BINDING = 0, KEYS_BINDING = 1, LIST_BINDING = 3, CELLS_BINDING = 4 };
+enum { CLUSTERS_BINDING = 0, KEYS_BINDING = 1, CARRY_BINDING = 2, LIST_BINDING = 3 };
+enum { CELLS_BINDING = 4 };
 enum { RECORDS_BINDING = 5, ROWS_BINDING = 6 };
 enum { CLUSTER_GROUP = 64, UPDATE_GROUP = 32, TEXEL_GROUP = 8, REORDER_GROUP = 64, ROW_GROUP = 64 };
 enum { LIST_BYTES = 48, RECORD_BYTES = 48, KEY_BITS = 32 };
+enum { CARRY_BYTES = 17 * 16 }; /* at most: area lights of 16 corners */
 
 enum pass { SEED, LIST, ASSIGN, REORDER, UPDATE_SORTED, UPDATE_DIRECT, COUNT, PASSES };
 static const struct {
@@ -31,7 +33,8 @@ struct rsc_passes {
     struct irb_sort *sort;
     struct irb_buffer *cell_keys, *list, *cell_starts; /* of the grid */
     struct irb_buffer *texel_keys, *records;           /* RSC_SORT only */
-    struct irb_buffer *rows;                           /* of the census: a vec4 a row */
+    struct irb_buffer *carry; /* sums of walks that go on in another dispatch */
+    struct irb_buffer *rows;  /* of the census: a vec4 a row */
 };
 
 struct rsc_clusters *rsc_clusters_create(struct irb_gl *gl, int resolution, struct irb_error *err)
@@ -74,6 +77,7 @@ void rsc_clusters_destroy(struct rsc_clusters *c)
     irb_buffer_destroy(p->cell_starts);
     irb_buffer_destroy(p->texel_keys);
     irb_buffer_destroy(p->records);
+    irb_buffer_destroy(p->carry);
     irb_buffer_destroy(p->rows);
     free(p);
     irb_buffer_destroy(c->clusters);
@@ -156,7 +160,8 @@ bool rsc_clusters_prepare(struct rsc_clusters *c, const struct rsc_settings *s,
         !grow(c->gl, &p->cell_keys, "rsm-clustering: cell keys", irb_sort_bytes(s->clusters),
               err) ||
         !grow(c->gl, &p->list, "rsm-clustering: list", clusters * LIST_BYTES, err) ||
-        !grow(c->gl, &p->cell_starts, "rsm-clustering: cells", (cells * cells + 1) * 4, err))
+        !grow(c->gl, &p->cell_starts, "rsm-clustering: cells", (cells * cells + 1) * 4, err) ||
+        !grow(c->gl, &p->carry, "rsm-clustering: carry", clusters * CARRY_BYTES, err))
         return false;
     return s->reduction != RSC_SORT ||
            (check_sort(c, s->clusters, err) &&
@@ -292,11 +297,12 @@ const char *rsc_members_define(const struct rsc_settings *s)
     return s->reduction == RSC_SORT ? "SORTED 1" : "SORTED 0";
 }
 
-int rsc_members_bind(const struct rsc_clusters *c, const struct irb_program *program,
-                     const struct irb_rsm *rsm, const struct rsc_settings *s)
+void rsc_members_bind(const struct rsc_clusters *c, const struct irb_program *program,
+                      const struct irb_rsm *rsm, const struct rsc_settings *s)
 {
-    int unit = irb_rsm_bind(rsm, program, 0);
+    const int unit = irb_rsm_bind(rsm, program, 0);
     bind(c, CLUSTERS_BINDING, c->clusters);
+    bind(c, CARRY_BINDING, c->passes->carry);
     irb_program_uint(program, "cluster_count", (unsigned)s->clusters);
     irb_program_float(program, "flux_unit", flux_unit_of(rsm));
     if (s->reduction == RSC_SORT) {
@@ -304,13 +310,32 @@ int rsc_members_bind(const struct rsc_clusters *c, const struct irb_program *pro
         bind(c, RECORDS_BINDING, c->passes->records);
         irb_program_int(program, "texel_bits", texel_bits_of(c));
         irb_program_uint(program, "texel_count", (unsigned)(c->resolution * c->resolution));
-        return unit;
+        return;
     }
     c->gl->api.BindTextureUnit((GLuint)unit, c->map->id);
-    irb_program_int(program, "cluster_map", unit++);
+    irb_program_int(program, "cluster_map", unit);
     irb_program_int(program, "cells", cells_of(s->clusters));
     irb_program_int(program, "reach", s->reduction == RSC_WINDOW ? s->reach : -1);
-    return unit;
+}
+
+/* Texels that a cluster walks over, at most: all may be its own. */
+static int64_t longest_walk(const struct rsc_clusters *c, const struct rsc_settings *s)
+{
+    const int64_t n = c->resolution, cells = cells_of(s->clusters);
+    const int64_t window = ((2 * (int64_t)s->reach + 1) * n + cells - 1) / cells;
+    const int64_t side = s->reduction == RSC_WINDOW && s->reach >= 0 && window < n ? window : n;
+    return side * side;
+}
+
+void rsc_members_dispatch(const struct rsc_clusters *c, const struct irb_program *program,
+                          const struct rsc_settings *s, int rounds, int width, int group)
+{
+    const int64_t texels = longest_walk(c, s), at_once = IRB_LOOP_ROUNDS_MOST / rounds;
+    irb_program_uint(program, "part_rounds", (unsigned)at_once);
+    for (int64_t part = 0; part * at_once < texels; part++) {
+        irb_program_uint(program, "part", (unsigned)part);
+        dispatch(c, width, group);
+    }
 }
 
 bool rsc_clusters_update(struct rsc_clusters *c, const struct irb_rsm *rsm,
@@ -321,7 +346,7 @@ bool rsc_clusters_update(struct rsc_clusters *c, const struct irb_rsm *rsm,
     if (!program)
         return false;
     rsc_members_bind(c, program, rsm, s);
-    dispatch(c, s->clusters, UPDATE_GROUP);
+    rsc_members_dispatch(c, program, s, 1, s->clusters, UPDATE_GROUP);
     return irb_gl_check(c->gl, pass_table[pass].name, err);
 }
 

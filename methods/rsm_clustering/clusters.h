@@ -81,10 +81,14 @@ bool rsc_clusters_update(struct rsc_clusters *clusters, const struct irb_rsm *rs
                          const struct rsc_settings *settings, struct irb_error *err);
 
 /* For passes that walk over the clusters' texels (shaders/methods/rsm_clustering/members.glsl):
- * the define to compile with, and what to bind; returns the first texture unit after it. */
+ * the define to compile with, what to bind, and the dispatches over `width` invocations in groups
+ * of `group`: as many as the longest walk may take where each texel costs `rounds` rounds of loops
+ * (core/gl/context.h). */
 const char *rsc_members_define(const struct rsc_settings *settings);
-int rsc_members_bind(const struct rsc_clusters *clusters, const struct irb_program *program,
-                     const struct irb_rsm *rsm, const struct rsc_settings *settings);
+void rsc_members_bind(const struct rsc_clusters *clusters, const struct irb_program *program,
+                      const struct irb_rsm *rsm, const struct rsc_settings *settings);
+void rsc_members_dispatch(const struct rsc_clusters *clusters, const struct irb_program *program,
+                          const struct rsc_settings *settings, int rounds, int width, int group);
 
 /* What a frame's clustering did. */
 struct rsc_census {

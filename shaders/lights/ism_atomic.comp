@@ -14,7 +14,8 @@ layout(r32ui, binding = 0) uniform uimage2D atlas;
 
 uniform int point_count;  /* of the chunk */
 uniform uint first_point; /* index of its first point in the whole set */
-uniform int most_maps;    /* ceil(s_f) */
+uniform int map_begin, map_end;     /* of a point's maps, of which there are up to ceil(s_f) */
+uniform int point_begin, point_end; /* of an invocation's POINTS_AN_INVOCATION */
 uniform int abreast;      /* lights side by side: a power of two, 1 to 8 */
 
 void draw(splat s, ivec2 origin)
@@ -38,13 +39,13 @@ void main()
     int round = int(gl_WorkGroupID.x) * rows * POINTS_AN_INVOCATION + lane / abreast;
     if (slot >= light_count)
         return;
-    for (int j = 0; j < most_maps; j++) {
+    for (int j = map_begin; j < map_end; j++) {
         int map = int((first_point + uint(slot) + uint(j)) % uint(light_count));
         map_light light = fetch_light(map);
         if (light.dark)
             continue;
         ivec2 origin = map_origin(map);
-        for (int k = 0; k < POINTS_AN_INVOCATION; k++) {
+        for (int k = point_begin; k < point_end; k++) {
             int i = (round + k * rows) * light_count + slot;
             if (i >= point_count)
                 break;

@@ -4,8 +4,7 @@
  * VAL of least mu (eq. 3.7), put each VAL at the mean of its VPLs, and again until nothing changes.
  * Dark ones have no VAL.
  *
- * llvmpipe ends all loops of an invocation after 65535 rounds in total (LP_MAX_TGSI_LOOP_ITERATIONS),
- * so a dispatch makes as many iterations as fit, and the next one goes on.
+ * A dispatch makes as many iterations as IRB_LOOP_ROUNDS_MOST lets it, and the next one goes on.
  *
  * Sums run over the VPLs in their order, one invocation a VAL, relative to the first VPL, so that
  * scenes far from the origin lose nothing.

@@ -86,6 +86,27 @@ static void test_raster(void **state)
     }
 }
 
+/* Splats of so many texels that an invocation's points take more rounds than one dispatch may
+ * (core/gl/context.h, IRB_LOOP_ROUNDS_MOST): the same bits as the rasteriser's. */
+static void test_large_splats(void **state)
+{
+    (void)state;
+    struct world w = {0};
+    struct irb_ism_settings settings = default_settings();
+    create_world(&w, gl, fixture_scene("cornell"),
+                 (struct irb_points_desc){.kind = IRB_POINTS_AREA, .count = 4096, .seed = 3}, 1);
+    settings.splat_most = 64;
+    settings.splat_scale = 100;
+    settings.near = 0;
+    struct fixture_maps atomic = splat(&w, &settings);
+    settings.splatter = IRB_ISM_RASTER;
+    struct fixture_maps raster = splat(&w, &settings);
+    require_equal(&atomic, &raster);
+    fixture_maps_destroy(&atomic);
+    fixture_maps_destroy(&raster);
+    destroy_world(&w);
+}
+
 static void test_chunks(void **state)
 {
     (void)state;
@@ -407,7 +428,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_follow),       cmocka_unit_test(test_deforming),
         cmocka_unit_test(test_tessellation), cmocka_unit_test(test_tessellation_shares),
         cmocka_unit_test(test_borders),      cmocka_unit_test(test_no_lights),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals),     cmocka_unit_test(test_large_splats),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

@@ -348,6 +348,55 @@ static void test_kernel(void **state)
     }
 }
 
+/* More rounds of loops than a pixel may take in one dispatch (core/gl/context.h,
+ * IRB_LOOP_ROUNDS_MOST): 1024 lights with all taps, at once and in batches. */
+static void test_many_lights(void **state)
+{
+    (void)state;
+    enum { LIGHTS = 1024, BATCH = 128, WIDTH = 8, SMALL_MAP = 16 };
+    static struct shade_light lights[LIGHTS];
+    struct receiver receivers[WIDTH * WIDTH];
+    struct irb_shade_settings settings = defaults;
+    struct irb_error err = {0};
+    struct irb_ism ism;
+    struct shading s;
+    const struct disc blocker = flat(0, 0.5, 0.6);
+    const struct scene scene = scene_of(0.3, 0, &blocker, 1);
+    settings.taps = settings.blocker_taps = IRB_SHADOW_TAPS_MOST;
+    for (uint32_t i = 0; i < WIDTH * WIDTH; i++)
+        receivers[i] = (struct receiver){
+            {(float)uniform(3, 2 * i) - 0.5f, (float)uniform(3, 2 * i + 1) - 0.5f, 0}, {0, 0, 1}};
+    REQUIRE_OK(shade_maps_create(&ism, gl, SMALL_MAP, LIGHTS, &err));
+    for (uint32_t l = 0; l < LIGHTS; l++) {
+        lights[l] = (struct shade_light){
+            .position = {2 * (float)uniform(1, 2 * l) - 1, 2 * (float)uniform(1, 2 * l + 1) - 1, 2},
+            .normal = {0, 0, -1},
+            .flux = {1, 2, 3},
+            .area = 0.3f};
+        shade_map_fill(&ism, (int)l, &lights[l], to_scene, &scene, NULL);
+    }
+    const struct irb_virtual_lights all = {shade_lights_upload(gl, lights, LIGHTS, &err), LIGHTS};
+    REQUIRE_OK(all.buffer);
+    shading_create(&s, shade, gl, receivers, WIDTH, WIDTH, 1, 1);
+    struct irb_image whole = shading_run(&s, &all, &ism, &settings);
+    for (int first = 0; first < LIGHTS; first += BATCH) {
+        const struct irb_shade_batch batch = {
+            .first = first, .count = BATCH, .accumulate = first > 0};
+        REQUIRE_OK(irb_shade_run_batch(shade, s.interleave, &all, &ism, &settings, &batch, &err));
+    }
+    REQUIRE_OK(irb_interleave_merge(s.interleave, &err));
+    struct irb_image batched = fixture_read(s.interleave->merged, 4);
+    for (size_t i = 0; i < 4 * irb_image_pixels(&whole); i++) {
+        REQUIRE_CMP(batched.data[i], >, 0); /* some of each light, some of its shadow */
+        REQUIRE_REL(whole.data[i], batched.data[i], 1e-5);
+    }
+    irb_image_destroy(&batched);
+    irb_image_destroy(&whole);
+    shading_destroy(&s);
+    irb_texture_destroy(ism.atlas);
+    irb_buffer_destroy((struct irb_buffer *)all.buffer);
+}
+
 int main(int argc, char **argv)
 {
     struct irb_error err = {0};
@@ -356,7 +405,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parallel), cmocka_unit_test(test_beyond_the_model),
         cmocka_unit_test(test_contact),  cmocka_unit_test(test_hard),
-        cmocka_unit_test(test_kernel),
+        cmocka_unit_test(test_kernel),   cmocka_unit_test(test_many_lights),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_shade_destroy(shade);

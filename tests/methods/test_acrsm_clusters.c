@@ -196,6 +196,41 @@ static void test_brute_force(void **state)
     }
 }
 
+/* One cluster over a map of so many tiles that its sums take several dispatches (core/gl/context.h,
+ * IRB_LOOP_ROUNDS_MOST): a beam, since a cone leaves the map's corners dark. An invocation adds
+ * 65536 texels in float32, equal ones, so that roundings of 2^-24 of the sum may all go one way:
+ * half as many, 2e-3 of the last sum. */
+static void test_large_map(void **state)
+{
+    (void)state;
+    enum { SIDE = 2048 };
+    struct acrsm_fixture a;
+    struct acrsm_cluster clusters[ACRSM_CLUSTERS_MOST];
+    double flux[3] = {0}, lit = 0;
+    acrsm_fixture_create(&a, gl, fixture_scene("cornell"), SIDE, 1);
+    a.settings.cover = ACRSM_COVER_NEAREST;
+    struct irb_light light = acrsm_fixture_light(0.3);
+    light.type = IRB_LIGHT_DIRECTIONAL;
+    light.half_width = 0.1f; /* m */
+    acrsm_fixture_rsm(&a, &light);
+    acrsm_fixture_frame(&a);
+    acrsm_fixture_state(&a, clusters);
+    struct irb_image texels = fixture_read(a.f.rsm->flux, 4);
+    for (size_t p = 0; p < irb_image_pixels(&texels); p++) {
+        const float *phi = texels.data + 4 * p;
+        lit += phi[0] > 0 || phi[1] > 0 || phi[2] > 0;
+        for (int k = 0; k < 3; k++)
+            flux[k] += phi[k];
+    }
+    print_message("one cluster of %d of %g lit texels\n", clusters[0].count, lit);
+    REQUIRE_NEAR(lit, SIDE * SIDE, 0);
+    REQUIRE_NEAR(clusters[0].count, lit, 0);
+    for (int k = 0; k < 3; k++)
+        REQUIRE_REL(clusters[0].flux[k], flux[k], 2e-3);
+    irb_image_destroy(&texels);
+    acrsm_fixture_destroy(&a);
+}
+
 /* Uncovered texels are those in no square; the flux of the lights and theirs is that of the RSM. */
 static void check_conservation(struct acrsm_fixture *a)
 {
@@ -355,9 +390,8 @@ int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_brute_force),
-        cmocka_unit_test(test_moving_light),
-        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_brute_force),  cmocka_unit_test(test_large_map),
+        cmocka_unit_test(test_moving_light), cmocka_unit_test(test_lights),
         cmocka_unit_test(test_carry),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

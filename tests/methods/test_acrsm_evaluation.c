@@ -180,6 +180,26 @@ static void test_decisions(void **state)
     }
 }
 
+/* Neighbours from a square of so many texels that its sums take several dispatches
+ * (core/gl/context.h, IRB_LOOP_ROUNDS_MOST). */
+static void test_large_square(void **state)
+{
+    (void)state;
+    struct acrsm_fixture a;
+    struct step s;
+    acrsm_fixture_create(&a, gl, fixture_scene("cornell"), 2048, 16);
+    a.settings.neighbours = ACRSM_NEIGHBOURS_MAP;
+    a.settings.square = 2048;
+    struct irb_light light = acrsm_fixture_light(0.3);
+    acrsm_fixture_rsm(&a, &light);
+    acrsm_fixture_frame(&a);
+    evaluate(&a, &s);
+    check_verification(&a, &s);
+    check_order(&a, &s);
+    free(s.map);
+    acrsm_fixture_destroy(&a);
+}
+
 /* Without re-seeding nothing takes the clusters that no split took: they stay as they were, so that
  * evaluation changes no bit. */
 static void test_no_reseed(void **state)
@@ -298,8 +318,8 @@ int main(int argc, char **argv)
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_decisions),      cmocka_unit_test(test_no_reseed),
-        cmocka_unit_test(test_seeds),          cmocka_unit_test(test_seeds_of_tiles),
-        cmocka_unit_test(test_changing_count),
+        cmocka_unit_test(test_large_square),   cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_seeds_of_tiles), cmocka_unit_test(test_changing_count),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

@@ -53,17 +53,40 @@ vec2 direction(int i)
 }
 #endif
 
-extent measure(uint id, cluster c, mat3 frame)
+#define CARRY_VECTORS (1 + CORNERS)
+
+/* Of nothing, or what the parts before this one found. */
+extent begin_extent(uint id)
 {
+    vec4 sums = part > 0u ? carry[CARRY_VECTORS * id] : vec4(0.0);
     extent e;
-    e.weight = e.moment = e.radius = 0.0;
+    e.weight = sums.x;
+    e.moment = sums.y;
+    e.radius = sums.z;
 #if CORNERS > 0
     for (int i = 0; i < CORNERS; i++) {
-        e.corner[i] = vec2(0.0);
-        e.reach[i] = -1e38;
+        vec4 corner = vec4(vec2(0.0), -1e38, 0.0);
+        if (part > 0u)
+            corner = carry[CARRY_VECTORS * id + 1u + uint(i)];
+        e.corner[i] = corner.xy;
+        e.reach[i] = corner.z;
     }
 #endif
-    for (walk w = begin_walk(id, c.cell); w.goes_on; walk_on(w)) {
+    return e;
+}
+
+void store_extent(uint id, extent e)
+{
+    carry[CARRY_VECTORS * id] = vec4(e.weight, e.moment, e.radius, 0.0);
+#if CORNERS > 0
+    for (int i = 0; i < CORNERS; i++)
+        carry[CARRY_VECTORS * id + 1u + uint(i)] = vec4(e.corner[i], e.reach[i], 0.0);
+#endif
+}
+
+void measure(inout extent e, walk w, cluster c, mat3 frame)
+{
+    for (; w.goes_on; walk_on(w)) {
         if (!is_member(w))
             continue;
         member m = member_at(w);
@@ -81,7 +104,6 @@ extent measure(uint id, cluster c, mat3 frame)
         }
 #endif
     }
-    return e;
 }
 
 float disc_area(cluster c, extent e)
@@ -121,8 +143,15 @@ void main()
     cluster c = cluster(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, ivec2(-1), false);
     if (id < cluster_count)
         c = load_cluster(id);
-    mat3 frame = light_frame(c.normal);
-    extent e = measure(id, c, frame);
+    walk w = begin_walk(id, c.cell);
+    if (!w.begins)
+        return;
+    extent e = begin_extent(id);
+    measure(e, w, c, light_frame(c.normal));
+    if (!w.ends) {
+        store_extent(id, e);
+        return;
+    }
     bool dark = !(c.texels > 0.0);
     lights[VPL_VECTORS * id] = vec4(c.centre, dark ? 0.0 : disc_area(c, e));
     lights[VPL_VECTORS * id + 1u] = vec4(c.normal, 0.0);

@@ -35,6 +35,21 @@ void add(inout sums a, sums b)
     a.weighted_area += b.weighted_area;
 }
 
+#define CARRY_VECTORS 7
+
+void store_sums(uint at, sums s)
+{
+    carry[at] = vec4(s.flux, s.weight);
+    carry[at + 1u] = vec4(s.offset, s.area);
+    carry[at + 2u] = vec4(s.normal, s.weighted_area);
+}
+
+sums load_sums(uint at)
+{
+    vec4 v0 = carry[at], v1 = carry[at + 1u], v2 = carry[at + 2u];
+    return sums(v0.xyz, v1.xyz, v2.xyz, v0.w, v1.w, v2.w);
+}
+
 sums weigh(member m, vec3 origin)
 {
     float w = (m.flux.r + m.flux.g + m.flux.b) * flux_unit;
@@ -58,9 +73,17 @@ void main()
     if (id >= cluster_count)
         return;
     cluster c = load_cluster(id);
+    walk w = begin_walk(id, c.cell);
+    if (!w.begins)
+        return;
     sums total = NOTHING, chunk = NOTHING;
-    uint texels = 0u;
-    for (walk w = begin_walk(id, c.cell); w.goes_on; walk_on(w)) {
+    uint texels = 0u, carried = CARRY_VECTORS * id;
+    if (part > 0u) {
+        total = load_sums(carried);
+        chunk = load_sums(carried + 3u);
+        texels = floatBitsToUint(carry[carried + 6u].x);
+    }
+    for (; w.goes_on; walk_on(w)) {
         if (!is_member(w))
             continue;
         add(chunk, weigh(member_at(w), c.centre));
@@ -68,6 +91,12 @@ void main()
             add(total, chunk);
             chunk = NOTHING;
         }
+    }
+    if (!w.ends) {
+        store_sums(carried, total);
+        store_sums(carried + 3u, chunk);
+        carry[carried + 6u].x = uintBitsToFloat(texels);
+        return;
     }
     add(total, chunk);
     c.texels = float(texels);
