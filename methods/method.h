@@ -22,7 +22,7 @@
 #include "core/frame/rsm.h"
 #include "core/gl/timer.h"
 
-#define IRB_METHOD_ABI 2
+#define IRB_METHOD_ABI 3
 
 /* What a method needs beyond the frame it is given. */
 enum irb_method_needs {
@@ -106,18 +106,23 @@ static inline void irb_output_layer(struct irb_frame_output *output, const char 
     } while (0)
 
 struct irb_method {
-    int abi;                  /* IRB_METHOD_ABI */
-    const char *name;         /* "rsm": config key and folder name */
-    const char *title;        /* "Reflective shadow maps" */
-    const char *citation;     /* authors, title, venue, year */
-    const char *path_classes; /* Heckbert's notation of what it adds, "LDDE" */
-    bool claims_visibility;   /* false: it does not model indirect visibility; its own claim is
-                                 then scored against the reference without it */
-    unsigned needs;           /* enum irb_method_needs */
-    size_t params_size;       /* of its parameter struct */
+    int abi;                         /* IRB_METHOD_ABI */
+    const char *name;                /* "rsm": config key and folder name */
+    const char *title;               /* "Reflective shadow maps" */
+    const char *citation;            /* authors, title, venue, year */
+    const char *path_classes;        /* Heckbert's notation of what it adds, "LDDE" */
+    size_t params_size;              /* of its parameter struct */
     const struct irb_option *params; /* ended by IRB_OPTION_END */
     const char *const *stages;       /* names for timing, NULL-terminated, at most 24;
                                         not gbuffer, rsm or direct, which the core times */
+
+    /* What follows from the parameters, as one frame has them. These two have no state, and are
+     * called where there is no OpenGL, for documentation too. */
+    /* Whether it models indirect visibility; where not, its own claim is scored too: that frame
+     * against the reference without visibility. NULL: never. */
+    bool (*claims_visibility)(const void *params);
+    /* enum irb_method_needs; a trial needs what any of its frames does. NULL: nothing. */
+    unsigned (*needs)(const void *params);
 
     /* State for one trial, for images of width x height. NULL on failure. A config may give
      * parameters keys over the sequence: `params` here and in begin_sequence are those of frame 0,

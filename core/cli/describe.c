@@ -4,6 +4,7 @@
  */
 #include "core/cli/cli.h"
 #include "core/cli/markdown.h"
+#include "core/cli/method_text.h"
 #include "core/config/config.h"
 #include "core/scene/builtin.h"
 #include "core/scene/deform.h"
@@ -86,9 +87,11 @@ static bool show_method(const struct irb_method *method, struct irb_error *err)
     struct irb_registry one = {.methods = {method}, .count = 1};
     if (!irb_trial_parse(&trial, method->name, &one, err))
         return false;
+    struct irb_str visibility = {0};
+    irb_method_visibility_text(method, "", &visibility);
     printf("%s: %s\n%s\nlight paths: %s; %s\n\nparameters (default, allowed):\n", method->name,
-           method->title, method->citation, method->path_classes,
-           method->claims_visibility ? "with indirect visibility" : "no indirect visibility");
+           method->title, method->citation, method->path_classes, irb_str_text(&visibility));
+    irb_str_free(&visibility);
     print_options(method->params, trial.params);
     printf("\nstages:");
     for (int i = 0; method->stages[i]; i++)

@@ -4,6 +4,7 @@
  */
 #include "core/cli/docs.h"
 #include "core/cli/markdown.h"
+#include "core/cli/method_text.h"
 #include "core/config/config.h"
 #include "core/scene/builtin.h"
 #include "core/score/metric_list.h"
@@ -128,11 +129,14 @@ static void docs_metrics(FILE *out, const struct irb_cli *cli)
 
 static void docs_method(FILE *out, const struct irb_method *method)
 {
-    fprintf(out, "## %s: %s\n\n%s\n\nLight paths: %s; %s.%s%s\n\n", method->name, method->title,
-            method->citation, method->path_classes,
-            method->claims_visibility ? "with indirect visibility" : "no indirect visibility",
-            method->needs & IRB_NEEDS_HISTORY ? " Keeps a history." : "",
-            method->needs & IRB_NEEDS_STATIC_GEOMETRY ? " Needs static geometry." : "");
+    struct irb_str nature = {0};
+    irb_method_visibility_text(method, "`", &nature);
+    irb_str_printf(&nature, ".");
+    irb_method_needs_text(method, IRB_NEEDS_HISTORY, "Keeps a history", "`", &nature);
+    irb_method_needs_text(method, IRB_NEEDS_STATIC_GEOMETRY, "Needs static geometry", "`", &nature);
+    fprintf(out, "## %s: %s\n\n%s\n\nLight paths: %s; %s\n\n", method->name, method->title,
+            method->citation, method->path_classes, irb_str_text(&nature));
+    irb_str_free(&nature);
     if (method->params->name)
         irb_markdown_options(out, method->params, "parameter");
     fputs("\nStages that are timed:", out);

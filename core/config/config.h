@@ -122,6 +122,10 @@ bool irb_trial_is_default(const struct irb_trial *trial, const struct irb_option
 /* Whether it changes over the sequence. */
 bool irb_trial_has_track(const struct irb_trial *trial, const struct irb_option *option);
 
+/* What its method says of the parameters of one frame, and of all of `frames` frames together. */
+bool irb_trial_claims_visibility(const struct irb_trial *trial, int frame);
+unsigned irb_trial_needs(const struct irb_trial *trial, int frames); /* enum irb_method_needs */
+
 /* The region in pixels of a width x height image: x0, y0, x1, y1, the last two exclusive. Fractions
  * are rounded to the nearest pixel edge. False where no pixel is in it or it leaves the image. */
 bool irb_region_pixels(const struct irb_region *region, int width, int height, int box[4]);

@@ -25,6 +25,7 @@ static const double largest_masked_share = 0.05;
 struct trial_run {
     const struct irb_trial *trial;
     int64_t id;
+    unsigned needs; /* enum irb_method_needs */
     void *state;    /* the method's; NULL when there is nothing to render */
     void *params;   /* of the frame that is being rendered; owned */
     int last_frame; /* last frame that has to be rendered, -1 for none */
@@ -49,7 +50,7 @@ struct scene_run {
 
 static bool keeps_history(const struct trial_run *trial)
 {
-    return trial->trial->method->needs & IRB_NEEDS_HISTORY;
+    return trial->needs & IRB_NEEDS_HISTORY;
 }
 
 static bool frame_done(struct scene_run *scene, const struct trial_run *trial, int frame)
@@ -98,6 +99,7 @@ static bool open_trial(struct scene_run *scene, struct trial_run *trial, struct 
     irb_fs_remove_stale(folder);
     free(folder);
     int done = 0;
+    trial->needs = irb_trial_needs(trial->trial, config->render.frames);
     trial->last_frame = -1;
     for (int i = 0; i < config->render.frames; i++) {
         if (!frame_done(scene, trial, i))
@@ -116,7 +118,7 @@ static bool create_trial_state(struct scene_run *scene, struct trial_run *trial,
 {
     const struct irb_config *config = scene->run->config;
     const struct irb_method *method = trial->trial->method;
-    if (scene->sequence->moves && (method->needs & IRB_NEEDS_STATIC_GEOMETRY))
+    if (scene->sequence->moves && (trial->needs & IRB_NEEDS_STATIC_GEOMETRY))
         return irb_fail(err, IRB_E_USAGE, "%s: needs objects that rest, but those of %s move",
                         method->name, scene->sequence->entry->name);
     trial->params = calloc(1, method->params_size ? method->params_size : 1);

@@ -309,7 +309,7 @@ bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_con
     if (reference->bounces > 1)
         score_unranked(&solution, c->eps_solution, &v[IRB_METRIC_solution_rmse],
                        &v[IRB_METRIC_solution_relmse], &v[IRB_METRIC_solution_energy_ratio]);
-    if (reference->unoccluded && !trial->trial->method->claims_visibility)
+    if (reference->unoccluded && !irb_trial_claims_visibility(trial->trial, current->frame))
         score_unranked(&claim, c->eps_claim, &v[IRB_METRIC_claim_rmse], &v[IRB_METRIC_claim_relmse],
                        &v[IRB_METRIC_claim_energy_ratio]);
     score_reference(context, previous != NULL, v);

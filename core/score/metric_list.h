@@ -7,7 +7,8 @@
  * geometry and over channels. eps = (0.01 * mean r of the sequence)^2. `indirect` is the indirect
  * radiance and `full` the whole image, both against bounce 1 with exact visibility: what is ranked.
  * `solution` is the whole image against bounces 1 to 16; `claim` the indirect image of a method
- * that models no indirect visibility against bounce 1 without it: diagnostic, never ranked.
+ * that models no indirect visibility (with the frame's parameters) against bounce 1 without it:
+ * diagnostic, never ranked.
  *
  * Stage times have metrics of their own, stage_<name>_ms, named by the method's table of stages. In
  * a scene's named regions the metrics of IRB_REGION_METRICS are scored too, as METRIC@REGION.

@@ -235,17 +235,30 @@ static bool acrsm_render_frame(void *user, const struct irb_frame_inputs *in,
            (!in->debug || debug(s, &r, out, err));
 }
 
+static bool acrsm_claims_visibility(const void *settings)
+{
+    const struct acrsm_params *p = settings;
+    return p->visibility != IRB_SHADE_NONE;
+}
+
+/* Also where nothing is merged or split: clusters stay where they are. */
+static unsigned acrsm_needs(const void *settings)
+{
+    (void)settings;
+    return IRB_NEEDS_HISTORY;
+}
+
 const struct irb_method irb_method_acrsm = {
     .abi = IRB_METHOD_ABI,
     .name = "acrsm",
     .title = "Adaptively-clustered reflective shadow maps",
     .citation = "F. Weinzierl-Heigl, Adaptively-Clustered Reflective Shadow Maps, master's thesis",
     .path_classes = "LDDE",
-    .claims_visibility = true,
-    .needs = IRB_NEEDS_HISTORY,
     .params_size = sizeof(struct acrsm_params),
     .params = acrsm_options,
     .stages = stages,
+    .claims_visibility = acrsm_claims_visibility,
+    .needs = acrsm_needs,
     .create = acrsm_create,
     .resize = acrsm_resize,
     .begin_sequence = acrsm_begin_sequence,

@@ -239,11 +239,11 @@ const struct irb_method irb_method_clustered_visibility = {
     .citation = "Z. Dong, T. Grosch, T. Ritschel, J. Kautz and H.-P. Seidel, Real-time Indirect "
                 "Illumination with Clustered Visibility, VMV 2009",
     .path_classes = "LDDE",
-    .claims_visibility = true,
-    .needs = IRB_NEEDS_HISTORY,
     .params_size = sizeof(struct cv_params),
     .params = cv_options,
     .stages = stages,
+    .claims_visibility = cv_claims_visibility,
+    .needs = cv_needs,
     .create = cv_create,
     .resize = cv_resize,
     .begin_sequence = cv_begin_sequence,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/clustered_visibility/params.h"
+#include "methods/method.h"
 
 #include "core/sampling/halton.h"
 
@@ -139,6 +140,18 @@ static struct irb_val_lighting_settings lighting_of(const struct cv_params *p, f
                 .penumbra_scale = p->penumbra_scale},
         .bound = diagonal > 0 ? p->clamp / diagonal / diagonal : 0,
     };
+}
+
+bool cv_claims_visibility(const void *params)
+{
+    const struct cv_params *p = params;
+    return p->visibility != VISIBILITY_NONE;
+}
+
+unsigned cv_needs(const void *params)
+{
+    const struct cv_params *p = params;
+    return p->start == IRB_VALS_REUSE ? IRB_NEEDS_HISTORY : IRB_NEEDS_NOTHING;
 }
 
 void cv_params_resolve(const struct cv_params *p, float diagonal, uint64_t seed,

@@ -40,4 +40,8 @@ struct cv_resolved {
 void cv_params_resolve(const struct cv_params *params, float diagonal, uint64_t seed,
                        struct cv_resolved *out);
 
+/* As methods/method.h asks for; the parameters are a struct cv_params. */
+bool cv_claims_visibility(const void *params);
+unsigned cv_needs(const void *params);
+
 #endif

@@ -310,6 +310,12 @@ static bool ism_render_frame(void *user, const struct irb_frame_inputs *in,
     return ok && light_tiles(o, in, err) && report(state, in, &coverage, out, err);
 }
 
+static bool ism_claims_visibility(const void *settings)
+{
+    const struct ism_params *p = settings;
+    return p->visibility != ISM_UNOCCLUDED;
+}
+
 const struct irb_method irb_method_ism = {
     .abi = IRB_METHOD_ABI,
     .name = "ism",
@@ -318,11 +324,10 @@ const struct irb_method irb_method_ism = {
                 "Imperfect Shadow Maps for Efficient Computation of Indirect Illumination, "
                 "SIGGRAPH Asia 2008",
     .path_classes = "LDDE",
-    .claims_visibility = true,
-    .needs = IRB_NEEDS_NOTHING,
     .params_size = sizeof(struct ism_params),
     .params = ism_options,
     .stages = stages,
+    .claims_visibility = ism_claims_visibility,
     .create = ism_create,
     .resize = ism_resize,
     .begin_sequence = ism_begin_sequence,

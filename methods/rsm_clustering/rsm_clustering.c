@@ -306,6 +306,18 @@ static bool rsc_render_frame(void *user, const struct irb_frame_inputs *in,
            (!in->debug || draw_pictures(s, in, &r, out, err));
 }
 
+static bool rsc_claims_visibility(const void *settings)
+{
+    const struct rsc_params *p = settings;
+    return p->visibility != IRB_SHADE_NONE;
+}
+
+static unsigned rsc_needs(const void *settings)
+{
+    (void)settings;
+    return IRB_NEEDS_HISTORY;
+}
+
 const struct irb_method irb_method_rsm_clustering = {
     .abi = IRB_METHOD_ABI,
     .name = "rsm-clustering",
@@ -313,11 +325,11 @@ const struct irb_method irb_method_rsm_clustering = {
     .citation = "R. Prutkin, A. S. Kaplanyan and C. Dachsbacher, Reflective Shadow Map Clustering "
                 "for Real-Time Global Illumination, Eurographics 2012 Short Papers",
     .path_classes = "LDDE",
-    .claims_visibility = false,
-    .needs = IRB_NEEDS_HISTORY,
     .params_size = sizeof(struct rsc_params),
     .params = rsc_options,
     .stages = stages,
+    .claims_visibility = rsc_claims_visibility,
+    .needs = rsc_needs,
     .create = rsc_create,
     .resize = rsc_resize,
     .begin_sequence = rsc_begin_sequence,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Two methods without code: what a config needs to know of a method is its name and parameters.
+ * Two methods without code: what a config needs to know of a method is its name and parameters, and
+ * what follows from these.
  */
 #ifndef IRB_TESTS_EXPERIMENT_MOCK_METHODS_H
 #define IRB_TESTS_EXPERIMENT_MOCK_METHODS_H
@@ -22,8 +23,24 @@ static const struct irb_option mock_options[] = {
     IRB_OPTION_BOOL(struct mock_params, shared, 1, "one set for all pixels", "test"),
     IRB_OPTION_END,
 };
-static const struct irb_method mock_rsm = {
-    .name = "rsm", .params_size = sizeof(struct mock_params), .params = mock_options};
+
+static bool mock_claims_visibility(const void *params)
+{
+    return ((const struct mock_params *)params)->mode == 2;
+}
+
+static unsigned mock_needs(const void *params)
+{
+    const struct mock_params *p = params;
+    return (p->samples > 1000 ? IRB_NEEDS_HISTORY : 0) |
+           (p->shared ? 0 : IRB_NEEDS_STATIC_GEOMETRY);
+}
+
+static const struct irb_method mock_rsm = {.name = "rsm",
+                                           .params_size = sizeof(struct mock_params),
+                                           .params = mock_options,
+                                           .claims_visibility = mock_claims_visibility,
+                                           .needs = mock_needs};
 
 static const struct irb_option mock_no_options[] = {IRB_OPTION_END};
 static const struct irb_method mock_plain = {.name = "plain", .params = mock_no_options};

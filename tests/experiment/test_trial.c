@@ -108,6 +108,35 @@ static void test_track_values(void **state)
     irb_trial_destroy(&trial);
 }
 
+/* What follows from the parameters, as a frame has them: claims frame by frame, needs of all frames
+ * that there are. */
+static void test_what_follows(void **state)
+{
+    (void)state;
+    struct irb_trial trial;
+    struct irb_error err = {0};
+    REQUIRE_OK(irb_trial_parse(&trial, "rsm:mode=importance", &mock_registry, &err));
+    assert_true(irb_trial_claims_visibility(&trial, 0));
+    assert_int_equal(irb_trial_needs(&trial, 8), IRB_NEEDS_NOTHING);
+    irb_trial_destroy(&trial);
+    REQUIRE_OK(irb_trial_parse(&trial,
+                               "rsm:mode=all@0+importance@3+uniform@5:samples=900@0..1010@11:"
+                               "shared=true@0+false@4+true@6",
+                               &mock_registry, &err));
+    for (int frame = -2; frame < 20; frame++)
+        assert_int_equal(irb_trial_claims_visibility(&trial, frame), frame == 3 || frame == 4);
+    assert_int_equal(irb_trial_needs(&trial, 4), IRB_NEEDS_NOTHING);
+    assert_int_equal(irb_trial_needs(&trial, 5), IRB_NEEDS_STATIC_GEOMETRY);
+    /* 1000 samples in frame 10 */
+    assert_int_equal(irb_trial_needs(&trial, 11), IRB_NEEDS_STATIC_GEOMETRY);
+    assert_int_equal(irb_trial_needs(&trial, 12), IRB_NEEDS_STATIC_GEOMETRY | IRB_NEEDS_HISTORY);
+    irb_trial_destroy(&trial);
+    REQUIRE_OK(irb_trial_parse(&trial, "plain", &mock_registry, &err));
+    assert_false(irb_trial_claims_visibility(&trial, 0));
+    assert_int_equal(irb_trial_needs(&trial, 100), IRB_NEEDS_NOTHING);
+    irb_trial_destroy(&trial);
+}
+
 static void expect_refusal(const char *text, const char *words)
 {
     struct irb_trial trial;
@@ -163,7 +192,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_names),       cmocka_unit_test(test_values),
         cmocka_unit_test(test_track_names), cmocka_unit_test(test_track_values),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_what_follows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -132,16 +132,22 @@ static void destroy(void *state)
     free(s);
 }
 
+static unsigned needs(const void *params)
+{
+    (void)params;
+    return IRB_TEST_HISTORY ? IRB_NEEDS_HISTORY : IRB_NEEDS_NOTHING;
+}
+
 static const struct irb_method method = {
     .abi = IRB_METHOD_ABI,
     .name = IRB_TEST_HISTORY ? "test-history" : "test-debug",
     .title = "A method for tests",
     .citation = "none",
     .path_classes = "LDDE",
-    .needs = IRB_TEST_HISTORY ? IRB_NEEDS_HISTORY : IRB_NEEDS_NOTHING,
     .params_size = sizeof(struct params),
     .params = options,
     .stages = stages,
+    .needs = needs,
     .create = create,
     .resize = resize,
     .begin_sequence = begin_sequence,

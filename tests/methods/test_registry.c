@@ -56,7 +56,7 @@ static void test_good_module(void **state)
 static void test_bad_modules(void **state)
 {
     (void)state;
-    expect_refusal("other_abi", "expected method ABI 2, found 3");
+    expect_refusal("other_abi", "expected method ABI 3, found 4");
     expect_refusal("no_method", "returned no method");
     expect_refusal("bad_name", "found 'Not a name'");
     expect_refusal("missing_function", "must define create, resize");
@@ -122,6 +122,53 @@ static void test_builtin_methods(void **state)
     irb_registry_close(&registry);
 }
 
+/* The parameters of a trial's text. */
+static void *parse(const struct irb_method *method, const char *name, const char *value)
+{
+    struct irb_error err = {0};
+    void *params = calloc(1, method->params_size);
+    assert_non_null(params);
+    irb_options_default(method->params, params);
+    assert_true(!name || irb_option_set(method->params, params, name, value, &err));
+    return params;
+}
+
+/* Shadows and histories come and go with the parameters. */
+static void test_what_follows_from_parameters(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method, *name, *value;
+        bool visibility, history;
+    } cases[] = {
+        {"acrsm", NULL, NULL, true, true},
+        {"acrsm", "visibility", "binary", true, true},
+        {"acrsm", "visibility", "none", false, true},
+        {"clustered-visibility", NULL, NULL, true, false},
+        {"clustered-visibility", "start", "reuse", true, true},
+        {"clustered-visibility", "visibility", "none", false, false},
+        {"ism", NULL, NULL, true, false},
+        {"ism", "visibility", "exact-raster", true, false},
+        {"ism", "visibility", "none", false, false},
+        {"rsm", NULL, NULL, false, false},
+        {"rsm-clustering", NULL, NULL, false, true},
+        {"rsm-clustering", "visibility", "binary", true, true},
+        {"rsm-clustering", "visibility", "pcss", true, true},
+    };
+    struct irb_registry registry;
+    struct irb_error err;
+    irb_registry_init(&registry);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct irb_method *m = irb_registry_find(&registry, cases[i].method, &err);
+        void *params = parse(m, cases[i].name, cases[i].value);
+        assert_int_equal(m->claims_visibility && m->claims_visibility(params), cases[i].visibility);
+        assert_int_equal(m->needs ? m->needs(params) : 0,
+                         cases[i].history ? IRB_NEEDS_HISTORY : IRB_NEEDS_NOTHING);
+        free(params);
+    }
+    irb_registry_close(&registry);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -130,6 +177,7 @@ int main(void)
         cmocka_unit_test(test_file_that_is_no_module),
         cmocka_unit_test(test_find),
         cmocka_unit_test(test_builtin_methods),
+        cmocka_unit_test(test_what_follows_from_parameters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
