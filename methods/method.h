@@ -46,6 +46,12 @@ struct irb_frame_inputs {
                                 other output is the same with and without. */
 };
 
+/* Of all frames of a run: what parameters may have to go with. */
+struct irb_frame_sizes {
+    int width, height;  /* of the images, pixels */
+    int rsm_resolution; /* of the reflective shadow map, texels a side */
+};
+
 /* What a debug layer holds, which decides how it is stored and shown. */
 enum irb_debug_kind {
     IRB_DEBUG_COLOUR,   /* display-referred RGB in [0,1]: as it is */
@@ -116,13 +122,18 @@ struct irb_method {
     const char *const *stages;       /* names for timing, NULL-terminated, at most 24;
                                         not gbuffer, rsm or direct, which the core times */
 
-    /* What follows from the parameters, as one frame has them. These two have no state, and are
-     * called where there is no OpenGL, for documentation too. */
-    /* Whether it models indirect visibility; where not, its own claim is scored too: that frame
+    /* What follows from the parameters, as one frame has them, each in its option's range. These
+     * three are called where there is neither a state nor OpenGL. */
+    /* Whether it models indirect visibility. Where not, its own claim is scored too: that frame
      * against the reference without visibility. NULL: never. */
     bool (*claims_visibility)(const void *params);
     /* enum irb_method_needs; a trial needs what any of its frames does. NULL: nothing. */
     unsigned (*needs)(const void *params);
+    /* Whether the parameters go together, and with the sizes. Called when a config is read, for
+     * every frame and every key of each trial, so that nothing is rendered before all are sound:
+     * IRB_E_INPUT with what was expected and what was found. What only a driver can know is left
+     * to render_frame. NULL: they always do. */
+    bool (*check)(const void *params, const struct irb_frame_sizes *sizes, struct irb_error *err);
 
     /* State for one trial, for images of width x height. NULL on failure. A config may give
      * parameters keys over the sequence: `params` here and in begin_sequence are those of frame 0,

@@ -256,7 +256,7 @@ static bool check_together(const struct irb_config *config, struct irb_error *er
         return irb_fail(err, IRB_E_INPUT,
                         "%s: expected at most %d trials, each seed counted, found %d with %d seeds",
                         config->path, IRB_MOST_TRIALS, config->trial_count, config->seed_count);
-    return irb_config_check_regions(config, err);
+    return irb_config_check_trials(config, err) && irb_config_check_regions(config, err);
 }
 
 bool irb_config_load(struct irb_config *config, const char *path, const char *const *overrides,

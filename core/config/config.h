@@ -75,6 +75,7 @@ struct irb_trial {
     struct irb_track *tracks; /* of the parameters that change; owned */
     int track_count;
     char *name; /* "rsm:mode=importance:samples=400@0+100@8": only what differs from the defaults */
+    char *place; /* "FILE:LINE:COLUMN", for messages; NULL of one that is in no file */
     /* Set by a run, which takes each trial of a config once for each seed: */
     int seed;
     char *folder; /* of its files, below the scene's: NAME, or NAME/seed-2 with several seeds */

@@ -53,6 +53,10 @@ void irb_config_hash_seeds(const struct irb_config *config, struct irb_hash *has
 bool irb_config_read_trials(struct irb_config *config, struct irb_yaml *yaml,
                             const struct irb_registry *registry, struct irb_error *err);
 
+/* Whether the parameters of all frames go together, each trial's with themselves and with the
+ * sizes, once --set has had its say (trial_frames.c). */
+bool irb_config_check_trials(const struct irb_config *config, struct irb_error *err);
+
 /* A trial of `method` with default parameters; and its name from its parameters (trial.c). */
 bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
                      struct irb_error *err);

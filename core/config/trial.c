@@ -58,6 +58,7 @@ void irb_trial_destroy(struct irb_trial *trial)
     free(trial->params);
     free(trial->name);
     free(trial->folder);
+    free(trial->place);
     *trial = (struct irb_trial){0};
 }
 

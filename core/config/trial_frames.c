@@ -35,3 +35,44 @@ unsigned irb_trial_needs(const struct irb_trial *trial, int frames)
     free(scratch);
     return needs;
 }
+
+/* ---- whether they go together ---- */
+
+static bool check_frame(const struct irb_trial *trial, int frame,
+                        const struct irb_frame_sizes *sizes, void **scratch, struct irb_error *err)
+{
+    if (trial->method->check(params_at(trial, frame, scratch), sizes, err))
+        return true;
+    if (trial->track_count)
+        irb_error_prefix(err, "frame %d", frame);
+    irb_error_prefix(err, "trial '%.128s'", trial->name);
+    return irb_error_prefix(err, "%s", trial->place);
+}
+
+/* All frames of the sequence, between keys as well, and the keys behind it: --set frames=2 makes no
+ * config sound. */
+static bool check_trial(const struct irb_trial *trial, int frames,
+                        const struct irb_frame_sizes *sizes, struct irb_error *err)
+{
+    void *scratch = NULL;
+    bool ok = true;
+    for (int i = 0; ok && i < (trial->track_count ? frames : 1); i++)
+        ok = check_frame(trial, i, sizes, &scratch, err);
+    for (int t = 0; ok && t < trial->track_count; t++)
+        for (int k = 0; ok && k < trial->tracks[t].key_count; k++)
+            ok = trial->tracks[t].keys[k].frame < frames ||
+                 check_frame(trial, trial->tracks[t].keys[k].frame, sizes, &scratch, err);
+    free(scratch);
+    return ok;
+}
+
+bool irb_config_check_trials(const struct irb_config *config, struct irb_error *err)
+{
+    const struct irb_render_settings *render = &config->render;
+    const struct irb_frame_sizes sizes = {render->width, render->height, render->rsm_resolution};
+    for (int i = 0; i < config->trial_count; i++)
+        if (config->trials[i].method->check &&
+            !check_trial(&config->trials[i], render->frames, &sizes, err))
+            return false;
+    return true;
+}

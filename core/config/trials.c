@@ -33,6 +33,7 @@ static bool add_trial(void *user, struct irb_trial *trial, struct irb_error *err
         irb_trial_destroy(trial);
         return false;
     }
+    trial->place = irb_yaml_place(r->yaml, r->node);
     config->trials[config->trial_count++] = *trial;
     return true;
 }

@@ -4,6 +4,7 @@
  * as area lights, with soft shadows from imperfect shadow maps and interleaved shading.
  */
 #include "core/frame/shadow_term.h"
+#include "core/lights/tessellation.h"
 #include "methods/method.h"
 #include "methods/acrsm/shadows.h"
 
@@ -248,6 +249,16 @@ static unsigned acrsm_needs(const void *settings)
     return IRB_NEEDS_HISTORY;
 }
 
+static bool acrsm_check(const void *settings, const struct irb_frame_sizes *sizes,
+                        struct irb_error *err)
+{
+    const struct acrsm_params *p = settings;
+    struct acrsm_resolved r;
+    acrsm_params_resolve(p, sizes->rsm_resolution, 1, 1, &r);
+    return !acrsm_has_shadows(&r) ||
+           irb_tessellation_check((double)p->f_min, (double)p->f_max, r.points.smoothstep, err);
+}
+
 const struct irb_method irb_method_acrsm = {
     .abi = IRB_METHOD_ABI,
     .name = "acrsm",
@@ -259,6 +270,7 @@ const struct irb_method irb_method_acrsm = {
     .stages = stages,
     .claims_visibility = acrsm_claims_visibility,
     .needs = acrsm_needs,
+    .check = acrsm_check,
     .create = acrsm_create,
     .resize = acrsm_resize,
     .begin_sequence = acrsm_begin_sequence,

@@ -11,6 +11,7 @@
 
 #include "core/frame/shadow_term.h"
 #include "core/sampling/halton.h"
+#include "core/lights/tessellation.h"
 #include "core/sampling/sobol.h"
 #include "methods/ism/objects.h"
 
@@ -316,6 +317,17 @@ static bool ism_claims_visibility(const void *settings)
     return p->visibility != ISM_UNOCCLUDED;
 }
 
+static bool ism_check(const void *settings, const struct irb_frame_sizes *sizes,
+                      struct irb_error *err)
+{
+    const struct ism_params *p = settings;
+    (void)sizes;
+    if (p->visibility != ISM_IMPERFECT || p->points == ISM_AREA)
+        return true;
+    const int order = p->smoothstep == ISM_SMOOTHSTEP_5 ? 5 : 3;
+    return irb_tessellation_check((double)p->f_min, (double)p->f_max, order, err);
+}
+
 const struct irb_method irb_method_ism = {
     .abi = IRB_METHOD_ABI,
     .name = "ism",
@@ -328,6 +340,7 @@ const struct irb_method irb_method_ism = {
     .params = ism_options,
     .stages = stages,
     .claims_visibility = ism_claims_visibility,
+    .check = ism_check,
     .create = ism_create,
     .resize = ism_resize,
     .begin_sequence = ism_begin_sequence,

@@ -90,12 +90,19 @@ void rsc_clusters_forget(struct rsc_clusters *c)
     c->count = 0;
 }
 
-static int texel_bits_of(const struct rsc_clusters *c)
+static int texel_bits_of(int resolution)
 {
     int bits = 1;
-    while ((int64_t)1 << bits < (int64_t)c->resolution * c->resolution)
+    while ((int64_t)1 << bits < (int64_t)resolution * resolution)
         bits++;
     return bits;
+}
+
+/* One number stays unused, so that no key is the one that means nothing. */
+int64_t rsc_most_sorted(int resolution)
+{
+    const int bits = KEY_BITS - texel_bits_of(resolution);
+    return bits > 0 ? ((int64_t)1 << bits) - 1 : 0;
 }
 
 /* The grid is sqrt(k) x sqrt(k). */
@@ -107,19 +114,14 @@ static int cells_of(int clusters)
     return cells;
 }
 
-/* Fails where a key can't hold every cluster and texel (one number stays unused, so that no key is
- * the one that means nothing), or a buffer all records. */
+/* Fails where a buffer can't hold all records. */
 static bool check_sort(const struct rsc_clusters *c, int clusters, struct irb_error *err)
 {
-    const int texel_bits = texel_bits_of(c);
-    const int64_t most = texel_bits < KEY_BITS ? ((int64_t)1 << (KEY_BITS - texel_bits)) - 1 : 0;
     GLint64 bytes = 0;
     c->gl->api.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    if (clusters > most)
-        return irb_fail(err, IRB_E_INPUT,
-                        "rsm-clustering: reduction=sort takes at most %lld clusters of an RSM of "
-                        "%d x %d texels, found %d; use reduction=window",
-                        (long long)most, c->resolution, c->resolution, clusters);
+    if (clusters > rsc_most_sorted(c->resolution))
+        return irb_fail(err, IRB_E_INTERNAL, "rsm-clustering: %d clusters in keys of %d bits",
+                        clusters, KEY_BITS);
     if ((int64_t)c->resolution * c->resolution * RECORD_BYTES > bytes)
         return irb_fail(err, IRB_E_INPUT,
                         "rsm-clustering: reduction=sort copies the RSM, and %d x %d texels exceed "
@@ -260,7 +262,8 @@ bool rsc_clusters_assign(struct rsc_clusters *c, const struct irb_rsm *rsm,
     api->BindImageTexture(0, c->map->id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
     irb_program_int(program, "cells", cells_of(s->clusters));
     irb_program_int(program, "reach", s->reach);
-    irb_program_int(program, "texel_bits", s->reduction == RSC_SORT ? texel_bits_of(c) : 0);
+    irb_program_int(program, "texel_bits",
+                    s->reduction == RSC_SORT ? texel_bits_of(c->resolution) : 0);
     api->DispatchCompute(groups, groups, 1);
     api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                        GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -280,7 +283,7 @@ bool rsc_clusters_sort(struct rsc_clusters *c, const struct irb_rsm *rsm,
     irb_rsm_bind(rsm, program, 0);
     bind(c, KEYS_BINDING, c->passes->texel_keys);
     bind(c, RECORDS_BINDING, c->passes->records);
-    irb_program_int(program, "texel_bits", texel_bits_of(c));
+    irb_program_int(program, "texel_bits", texel_bits_of(c->resolution));
     dispatch(c, texels, REORDER_GROUP);
     return irb_gl_check(c->gl, pass_table[REORDER].name, err);
 }
@@ -308,7 +311,7 @@ void rsc_members_bind(const struct rsc_clusters *c, const struct irb_program *pr
     if (s->reduction == RSC_SORT) {
         bind(c, KEYS_BINDING, c->passes->texel_keys);
         bind(c, RECORDS_BINDING, c->passes->records);
-        irb_program_int(program, "texel_bits", texel_bits_of(c));
+        irb_program_int(program, "texel_bits", texel_bits_of(c->resolution));
         irb_program_uint(program, "texel_count", (unsigned)(c->resolution * c->resolution));
         return;
     }

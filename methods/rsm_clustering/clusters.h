@@ -11,6 +11,8 @@
 #include "core/lights/pyramid.h"
 #include "core/lights/sort.h"
 
+#include <stdint.h>
+
 /* RSC_CLUSTER_BITS: of a cluster's number in the keys. */
 enum { RSC_CLUSTER_BITS = 14, RSC_MOST_CLUSTERS = 1 << RSC_CLUSTER_BITS };
 
@@ -58,8 +60,12 @@ void rsc_clusters_destroy(struct rsc_clusters *clusters);
 /* The next frame seeds all clusters. */
 void rsc_clusters_forget(struct rsc_clusters *clusters);
 
-/* Makes room for what the settings ask for; before the stages below. IRB_E_INPUT where RSC_SORT
- * can't hold cluster and texel in one key of 32 bits, or its copy of the RSM in one buffer. */
+/* The most clusters that RSC_SORT takes of an RSM of that many texels a side: cluster and texel in
+ * one key of 32 bits. */
+int64_t rsc_most_sorted(int resolution);
+
+/* Makes room for what the settings ask for; before the stages below. IRB_E_INPUT where RSC_SORT's
+ * copy of the RSM does not fit into one of the driver's buffers. */
 bool rsc_clusters_prepare(struct rsc_clusters *clusters, const struct rsc_settings *settings,
                           struct irb_error *err);
 

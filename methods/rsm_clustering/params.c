@@ -198,26 +198,40 @@ static struct irb_val_lighting_settings val_lighting_of(const struct rsc_params 
     };
 }
 
-static bool check(const struct rsc_params *p, struct irb_error *err)
+/* Of what shadows take. */
+static bool check_shadows(const struct rsc_params *p, struct irb_error *err)
 {
     const bool is_clustered = p->visibility == VISIBILITY_CLUSTERED;
     const int most = is_clustered ? IRB_VALS_MOST_LIGHTS : IRB_VPL_BLOCK;
     if (is_clustered && p->shape == SHAPE_POLYGON)
         return irb_fail(err, IRB_E_INPUT,
-                        "rsm-clustering: visibility=clustered takes discs only; use shape=disc or "
+                        "visibility=clustered takes discs only; use shape=disc or "
                         "visibility=pcss");
     if (p->visibility != IRB_SHADE_NONE && p->clusters > most)
         return irb_fail(err, IRB_E_INPUT,
-                        "rsm-clustering: visibility=%s takes at most %d clusters, found %d; use "
+                        "visibility=%s takes at most %d clusters, found %d; use "
                         "fewer clusters or visibility=none",
                         visibilities[p->visibility], most, p->clusters);
+    return true;
+}
+
+bool rsc_params_check(const struct rsc_params *p, int rsm_resolution, struct irb_error *err)
+{
+    if (!check_shadows(p, err))
+        return false;
+    if (p->reduction == RSC_SORT && p->clusters > rsc_most_sorted(rsm_resolution))
+        return irb_fail(err, IRB_E_INPUT,
+                        "reduction=sort: expected at most %lld clusters of an RSM of %d x %d "
+                        "texels, found %d; use reduction=window",
+                        (long long)rsc_most_sorted(rsm_resolution), rsm_resolution, rsm_resolution,
+                        p->clusters);
     return true;
 }
 
 bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t seed, unsigned frame,
                         struct rsc_resolved *out, struct irb_error *err)
 {
-    if (!check(p, err))
+    if (!check_shadows(p, err))
         return false;
     *out = (struct rsc_resolved){
         .importance = {.diffuse_weight = 1,

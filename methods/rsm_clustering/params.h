@@ -50,9 +50,13 @@ struct rsc_resolved {
 };
 
 /* diagonal: of the scene at rest, m, 0 for a scene without extent; seed: of the sequence; frame:
- * how many came before it. IRB_E_INPUT for settings that do not go together. */
+ * how many came before it. IRB_E_INPUT for shadows of what has none, which
+ * rsc_params_check() refuses too. */
 bool rsc_params_resolve(const struct rsc_params *params, float diagonal, uint64_t seed,
                         unsigned frame, struct rsc_resolved *out, struct irb_error *err);
+
+/* IRB_E_INPUT for settings that do not go together, with an RSM of that many texels a side. */
+bool rsc_params_check(const struct rsc_params *params, int rsm_resolution, struct irb_error *err);
 
 /* Whether each light has an imperfect shadow map. */
 static inline bool rsc_has_ism(const struct rsc_resolved *r)

@@ -318,6 +318,12 @@ static unsigned rsc_needs(const void *settings)
     return IRB_NEEDS_HISTORY;
 }
 
+static bool rsc_check(const void *settings, const struct irb_frame_sizes *sizes,
+                      struct irb_error *err)
+{
+    return rsc_params_check(settings, sizes->rsm_resolution, err);
+}
+
 const struct irb_method irb_method_rsm_clustering = {
     .abi = IRB_METHOD_ABI,
     .name = "rsm-clustering",
@@ -330,6 +336,7 @@ const struct irb_method irb_method_rsm_clustering = {
     .stages = stages,
     .claims_visibility = rsc_claims_visibility,
     .needs = rsc_needs,
+    .check = rsc_check,
     .create = rsc_create,
     .resize = rsc_resize,
     .begin_sequence = rsc_begin_sequence,

@@ -64,6 +64,38 @@ YAML
 expect 3 "did you mean 'noise'" "$IRBENCH" run "$work/good.yaml" --set reference.nois=1
 expect 2 "--only: the config has no trial 'rsm:mode=al'" "$IRBENCH" run "$work/good.yaml" --only rsm:mode=al --out "$work/only"
 
+# --- parameters that do not go together: before anything is rendered, and in show as well ---
+together() { # together TRIAL 'words': a config of a sound trial and this one
+    { grep -v "^trials" "$work/good.yaml"; printf 'trials:\n  - rsm\n  - %s\n' "$1"; } >"$work/together.yaml"
+    for command in "run $work/together.yaml --out $work/together" "reference $work/together.yaml" \
+        "show $work/together.yaml"; do
+        expect 3 "together.yaml:9:5: trial '$2" "$IRBENCH" $command
+    done
+    checks=$((checks + 1))
+    [ ! -e "$work/together" ] && [ ! -e "$IRBENCH_CACHE" ] || {
+        echo "FAIL: $1 is refused only after something was made"
+        failures=$((failures + 1))
+    }
+}
+factors='tessellation factors: expected 1 <= f_min <= f_max'
+together 'acrsm:f_min=40' "acrsm:f_min=40': $factors"
+together 'acrsm: {f_min: {keys: [[0, 4], [9, 40]]}}' "acrsm:f_min=4@0+40@9': frame 9: $factors"
+together 'ism: {points: [area, tessellation], f_max: 4}' "ism:points=tessellation:f_max=4': $factors"
+together 'ism:points=dynamic:f_min=33' "ism:points=dynamic:f_min=33': $factors"
+together 'rsm-clustering:clusters=1025:visibility=pcss' \
+    "rsm-clustering:clusters=1025:visibility=pcss': visibility=pcss takes at most 1024 clusters, found 1025"
+together 'rsm-clustering: {shape: polygon, visibility: clustered}' \
+    "rsm-clustering:shape=polygon:visibility=clustered': visibility=clustered takes discs only"
+{ grep -v '^trials' "$work/good.yaml"; echo 'trials: [rsm-clustering:clusters=4096]'; } >"$work/sort.yaml"
+check "keys of 32 bits" "$IRBENCH" show "$work/sort.yaml" --set rsm_resolution=512
+expect 3 "reduction=sort: expected at most 4095 clusters of an RSM of 1024 x 1024 texels, found 4096" \
+    "$IRBENCH" show "$work/sort.yaml" --set rsm_resolution=1024
+# what is not looked at may be anything
+for trial in 'acrsm:visibility=none:f_min=40' 'ism:f_min=40' 'ism:visibility=none:points=dynamic:f_min=40'; do
+    { grep -v '^trials' "$work/good.yaml"; echo "trials: ['$trial']"; } >"$work/together.yaml"
+    check "$trial" "$IRBENCH" show "$work/together.yaml"
+done
+
 # --- scenes ---
 expect 3 "no-such.glb" "$IRBENCH" inspect "$work/no-such.glb"
 printf 'glTF\002\000\000\000\377\377\000\000' >"$work/truncated.glb"

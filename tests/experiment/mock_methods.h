@@ -36,11 +36,22 @@ static unsigned mock_needs(const void *params)
            (p->shared ? 0 : IRB_NEEDS_STATIC_GEOMETRY);
 }
 
+/* Importance draws each texel once at most. */
+static bool mock_check(const void *params, const struct irb_frame_sizes *sizes,
+                       struct irb_error *err)
+{
+    const struct mock_params *p = params;
+    const int texels = sizes->rsm_resolution * sizes->rsm_resolution;
+    return p->mode != 2 || p->samples <= texels ||
+           irb_fail(err, IRB_E_INPUT, "samples: expected at most %d, found %d", texels, p->samples);
+}
+
 static const struct irb_method mock_rsm = {.name = "rsm",
                                            .params_size = sizeof(struct mock_params),
                                            .params = mock_options,
                                            .claims_visibility = mock_claims_visibility,
-                                           .needs = mock_needs};
+                                           .needs = mock_needs,
+                                           .check = mock_check};
 
 static const struct irb_option mock_no_options[] = {IRB_OPTION_END};
 static const struct irb_method mock_plain = {.name = "plain", .params = mock_no_options};

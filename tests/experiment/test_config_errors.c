@@ -569,6 +569,42 @@ static void test_tracks(void **state)
     irb_str_free(&keys);
 }
 
+/* Parameters that are in range and do not go together, or not with the RSM's 8 x 8 texels. */
+static void expect_together(const char *trials, const char *expected)
+{
+    char *text =
+        irb_asprintf("scene: cornell\nrsm_resolution: 8\nframes: 8\ntrials:\n%s\n", trials);
+    expect(text, expected);
+    free(text);
+}
+
+static void test_parameters_together(void **state)
+{
+    (void)state;
+    expect_together("  - rsm:mode=importance:samples=64\n  - rsm:mode=importance:samples=65",
+                    "@:6:5: trial 'rsm:mode=importance:samples=65': samples: expected at most 64, "
+                    "found 65");
+    expect_together("  - rsm: {mode: [uniform, importance], samples: [9, 70]}",
+                    "@:5:5: trial 'rsm:mode=importance:samples=70': samples: expected at most 64, "
+                    "found 70");
+    /* of two keyed parameters, where they meet; and between two keys */
+    expect_together("  - rsm: {mode: {keys: [[0, all], [5, importance]]}, "
+                    "samples: {keys: [[2, 64], [4, 80], [6, 9]]}}",
+                    "@:5:5: trial 'rsm:mode=all@0+importance@5:samples=64@2+80@4+9@6': frame 5: "
+                    "samples: expected at most 64, found 80");
+    expect_together("  - rsm:mode=uniform@0+importance@1+all@3:samples=100@0..60@4",
+                    "@:5:5: trial 'rsm:mode=uniform@0+importance@1+all@3:samples=100@0..60@4': "
+                    "frame 1: samples: expected at most 64, found 90");
+    /* keys behind the last frame too */
+    expect_together("  - rsm:mode=importance:samples=9@0+70@20",
+                    "@:5:5: trial 'rsm:mode=importance:samples=9@0+70@20': frame 20: samples: "
+                    "expected at most 64, found 70");
+    /* with what --set makes of it */
+    static const char text[] = "scene: cornell\ntrials: ['rsm:mode=importance']\n";
+    expect_bytes(text, sizeof text - 1, (const char *const[]){"rsm_resolution=16", NULL},
+                 "@:2:10: trial 'rsm:mode=importance': samples: expected at most 256, found 400");
+}
+
 static void test_too_many(void **state)
 {
     (void)state;
@@ -667,17 +703,29 @@ static void test_overrides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_files),        cmocka_unit_test(test_syntax),
-        cmocka_unit_test(test_deep_nesting), cmocka_unit_test(test_top),
-        cmocka_unit_test(test_reference),    cmocka_unit_test(test_scenes),
-        cmocka_unit_test(test_regions),      cmocka_unit_test(test_environment),
-        cmocka_unit_test(test_file_scenes),  cmocka_unit_test(test_of_file),
-        cmocka_unit_test(test_objects),      cmocka_unit_test(test_light),
-        cmocka_unit_test(test_keys),         cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_trials),       cmocka_unit_test(test_one_line),
-        cmocka_unit_test(test_overrides),    cmocka_unit_test(test_sweeps),
-        cmocka_unit_test(test_matrix),       cmocka_unit_test(test_too_many),
-        cmocka_unit_test(test_tracks),       cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_syntax),
+        cmocka_unit_test(test_deep_nesting),
+        cmocka_unit_test(test_top),
+        cmocka_unit_test(test_reference),
+        cmocka_unit_test(test_scenes),
+        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_file_scenes),
+        cmocka_unit_test(test_of_file),
+        cmocka_unit_test(test_objects),
+        cmocka_unit_test(test_light),
+        cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_trials),
+        cmocka_unit_test(test_one_line),
+        cmocka_unit_test(test_parameters_together),
+        cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_sweeps),
+        cmocka_unit_test(test_matrix),
+        cmocka_unit_test(test_too_many),
+        cmocka_unit_test(test_tracks),
+        cmocka_unit_test(test_seeds),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -526,9 +526,16 @@ static void test_refusals(void **state)
     struct rsc_resolved r;
     struct rsc_params *params =
         make_params((const char *const[]){"clusters", "1025", "visibility", "pcss", NULL});
-    assert_false(rsc_params_resolve(params, 1, 1, 0, &r, &err));
+    assert_false(rsc_params_check(params, 64, &err));
     assert_int_equal(err.code, IRB_E_INPUT);
     REQUIRE_CONTAINS(err.message, "visibility=none");
+    assert_false(rsc_params_resolve(params, 1, 1, 0, &r, &err));
+    free(params);
+    params = make_params((const char *const[]){"clusters", "4096", NULL});
+    REQUIRE_OK(rsc_params_check(params, 724, &err));
+    assert_false(rsc_params_check(params, 1024, &err));
+    REQUIRE_CONTAINS(err.message, "at most 4095 clusters of an RSM of 1024 x 1024 texels, found "
+                                  "4096; use reduction=window");
     free(params);
 }
 
