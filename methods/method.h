@@ -71,7 +71,8 @@ struct irb_frame_output {
     struct {
         const char *name; /* "cluster-map": at most 31 of A-Z, a-z, 0-9, '-' and '_', each once */
         const struct irb_texture *texture; /* the method's; of any size, an array's layers below one
-                                              another; at most 16384 texels a side */
+                                              another. Of more than 16384 texels a side the core
+                                              keeps every second one, every third one, ... */
         enum irb_debug_kind kind;
     } debug[IRB_MAX_DEBUG_LAYERS];
     int debug_count;
@@ -85,21 +86,28 @@ struct irb_frame_output {
     int statistic_count;
 };
 
-/* Appends a number for the report. */
+/* Appends a number for the report. Where there is no room it is only counted, and the core refuses
+ * the frame. */
 static inline void irb_output_statistic(struct irb_frame_output *output, const char *name,
                                         double value)
 {
-    output->statistics[output->statistic_count].name = name;
-    output->statistics[output->statistic_count++].value = value;
+    const int i = output->statistic_count++;
+    if (i >= IRB_MAX_STATISTICS)
+        return;
+    output->statistics[i].name = name;
+    output->statistics[i].value = value;
 }
 
-/* Appends a debug layer. */
+/* Appends a debug layer, likewise. */
 static inline void irb_output_layer(struct irb_frame_output *output, const char *name,
                                     const struct irb_texture *texture, enum irb_debug_kind kind)
 {
-    output->debug[output->debug_count].name = name;
-    output->debug[output->debug_count].texture = texture;
-    output->debug[output->debug_count++].kind = kind;
+    const int i = output->debug_count++;
+    if (i >= IRB_MAX_DEBUG_LAYERS)
+        return;
+    output->debug[i].name = name;
+    output->debug[i].texture = texture;
+    output->debug[i].kind = kind;
 }
 
 /* Runs a call as a stage of inputs->timer, unless one before it failed: ok is a bool that takes

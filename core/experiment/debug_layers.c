@@ -69,8 +69,31 @@ static void count_bits(struct irb_image *image)
     }
 }
 
-static bool read_layer(struct irb_debug_layer *layer, const struct irb_texture *texture,
-                       struct irb_error *err)
+/* Keeps every k-th texel, from the upper left one on, where files have no room for all: no mean,
+ * since distances and numbers of clusters have none. */
+static bool thin_out(struct irb_image *image, struct irb_error *err)
+{
+    const int longest = image->width > image->height ? image->width : image->height;
+    const int k = (longest + IRB_EXR_MAX_SIDE - 1) / IRB_EXR_MAX_SIDE;
+    struct irb_image thin;
+    if (k <= 1)
+        return true;
+    if (!irb_image_create(&thin, (image->width + k - 1) / k, (image->height + k - 1) / k,
+                          image->channels, err)) {
+        irb_image_destroy(image);
+        return false;
+    }
+    for (int y = 0; y < thin.height; y++)
+        for (int x = 0; x < thin.width; x++)
+            memcpy(irb_image_at(&thin, x, y), irb_image_at(image, x * k, y * k),
+                   (size_t)image->channels * sizeof(float));
+    irb_image_destroy(image);
+    *image = thin;
+    return true;
+}
+
+static bool read_texels(struct irb_debug_layer *layer, const struct irb_texture *texture,
+                        struct irb_error *err)
 {
     if (texture->format != GL_R32UI)
         return irb_texture_read(texture, channels_of(layer->kind), &layer->image, err);
@@ -82,6 +105,12 @@ static bool read_layer(struct irb_debug_layer *layer, const struct irb_texture *
     if (layer->kind == IRB_DEBUG_SCALAR)
         count_bits(&layer->image);
     return true;
+}
+
+static bool read_layer(struct irb_debug_layer *layer, const struct irb_texture *texture,
+                       struct irb_error *err)
+{
+    return read_texels(layer, texture, err) && thin_out(&layer->image, err);
 }
 
 bool irb_debug_layers_read(struct irb_debug_layers *debug, const struct irb_frame_output *output,

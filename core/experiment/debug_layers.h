@@ -28,8 +28,9 @@ struct irb_debug_layers {
     int count;
 };
 
-/* Reads back what a method returned. IRB_E_INPUT where its names are not what method.h asks for. On
- * failure nothing is left. */
+/* Reads back what a method returned, of one that is longer than 16384 texels every k-th texel,
+ * across and down, with the least k by which it is not. IRB_E_INPUT where its names or their number
+ * are not what method.h asks for. On failure nothing is left. */
 bool irb_debug_layers_read(struct irb_debug_layers *debug, const struct irb_frame_output *output,
                            struct irb_error *err);
 void irb_debug_layers_destroy(struct irb_debug_layers *debug);

@@ -208,6 +208,14 @@ static bool render_core(struct scene_run *scene, int frame, struct irb_error *er
     return ok;
 }
 
+/* What irb_output_statistic() had no room for. */
+static bool check_statistics(const struct irb_frame_output *output, struct irb_error *err)
+{
+    return (output->statistic_count >= 0 && output->statistic_count <= IRB_MAX_STATISTICS) ||
+           irb_fail(err, IRB_E_INPUT, "expected at most %d statistics of a method, found %d",
+                    IRB_MAX_STATISTICS, output->statistic_count);
+}
+
 static bool render_trial(struct scene_run *scene, struct trial_run *trial, int frame, bool debug,
                          struct irb_frame_output *output, double ms[IRB_MAX_STAGES],
                          struct irb_error *err)
@@ -229,6 +237,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
     int64_t before = scene->run->gl->bytes;
     *output = (struct irb_frame_output){.lost_energy = NAN};
     bool ok = trial->trial->method->render_frame(trial->state, &inputs, output, err) &&
+              check_statistics(output, err) &&
               irb_gl_check(scene->run->gl, trial->trial->name, err);
     irb_timer_collect(trial->timer, ms);
     trial->bytes += scene->run->gl->bytes - before; /* a method may allocate when it first draws */

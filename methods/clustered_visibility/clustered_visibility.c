@@ -27,9 +27,6 @@ enum {
 static const char *const stages[] = {"sample", "cluster", "maps",  "basis",  "prefilter",
                                      "split",  "light",   "merge", "filter", NULL};
 
-/* Tallest debug layer, texels (methods/method.h). */
-enum { TALLEST_LAYER = 16384 };
-
 struct cv_state {
     struct irb_gl *gl; /* borrowed */
     int width, height;
@@ -190,14 +187,6 @@ static bool report(struct cv_state *s, struct irb_frame_output *out, struct irb_
     return true;
 }
 
-static void add_layer(struct irb_frame_output *out, const char *name,
-                      const struct irb_texture *texture, enum irb_debug_kind kind)
-{
-    if (texture->height * (int64_t)(texture->layers > 0 ? texture->layers : 1) > TALLEST_LAYER)
-        return;
-    irb_output_layer(out, name, texture, kind);
-}
-
 static bool draw_pictures(struct cv_state *s, const struct irb_frame_inputs *in, bool maps,
                           struct irb_frame_output *out, struct irb_error *err)
 {
@@ -207,11 +196,11 @@ static bool draw_pictures(struct cv_state *s, const struct irb_frame_inputs *in,
     if (!cv_pictures_draw(s->pictures, in->rsm, s->vals, s->irradiance,
                           maps ? s->lighting.csm : NULL, err))
         return false;
-    add_layer(out, "vals", s->pictures->vals, IRB_DEBUG_COLOUR);
-    add_layer(out, "shadow", s->pictures->shadow->image, IRB_DEBUG_SCALAR);
+    irb_output_layer(out, "vals", s->pictures->vals, IRB_DEBUG_COLOUR);
+    irb_output_layer(out, "shadow", s->pictures->shadow->image, IRB_DEBUG_SCALAR);
     if (maps) {
-        add_layer(out, "maps", s->lighting.maps->distance, IRB_DEBUG_DISTANCE);
-        add_layer(out, "basis", s->pictures->basis, IRB_DEBUG_COLOUR);
+        irb_output_layer(out, "maps", s->lighting.maps->distance, IRB_DEBUG_DISTANCE);
+        irb_output_layer(out, "basis", s->pictures->basis, IRB_DEBUG_COLOUR);
     }
     return true;
 }

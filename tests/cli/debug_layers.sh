@@ -148,6 +148,22 @@ done
 expect 2 "format: frames are printed as csv or json, not as md" "$IRBENCH" table "$work/debug" --frames --format md
 expect 2 "--stages, --statistics and --frames are three tables" "$IRBENCH" table "$work/debug" --frames --stages
 
+# more than there is room for: one line that names the method, be it statistics or layers
+few() { # few EXTRA
+    sed -e "s/test-debug:.*/test-debug: {extra: $1}/" -e 's/frames: 7/frames: 1/' "$work/debug.yaml" >"$work/few.yaml"
+}
+few 13
+check "16 layers and 15 statistics" with debug run "$work/few.yaml" --out "$work/few-13" --debug-layers
+few 14
+check "16 statistics" with debug run "$work/few.yaml" --out "$work/few-14"
+says "all of them" "$(with debug table "$work/few-14" --frames | head -1 | tr ',' '\n' | grep -c '^statistic_\(extra\|clusters\|split\)')" 16
+few 60
+expect 3 "test-debug:extra=60: frame -1: expected at most 16 statistics of a method, found 62" \
+    with debug run "$work/few.yaml" --out "$work/few-60"
+few 14
+expect 3 "test-debug:extra=14: frame 0: expected at most 16 debug layers, found 17" \
+    with debug run "$work/few.yaml" --out "$work/few-17" --debug-layers
+
 # a history through keys: settling has frame 0's value, and a run in pieces is as one in a row
 check "a history" with history run "$work/history.yaml" --out "$work/whole" --debug-layers
 for lost in '*-000[0-6]' '*-000[25]'; do

@@ -319,6 +319,65 @@ static void test_pngs(void **state)
     fixture_remove(folder);
 }
 
+/* Files take 16384 texels a side: of an array of two layers every second texel, across and down, of
+ * three every third. */
+static void test_long_layers(void **state)
+{
+    (void)state;
+    enum { SIDE = 16384, ACROSS = 5 };
+    struct irb_gl *gl = fixture_gl(backend, NULL);
+    struct irb_error err = {0};
+    struct irb_texture *irradiance = float_texture(gl, GL_RGBA32F, WIDTH, HEIGHT, light_value);
+    for (int layers = 1; layers <= 3; layers++) {
+        const struct irb_texture_desc desc = {
+            .name = "test", .format = GL_R32F, .width = ACROSS, .height = SIDE, .layers = layers};
+        struct irb_texture *texture = irb_texture_create(gl, &desc, &err);
+        struct irb_image image;
+        REQUIRE_OK(texture);
+        REQUIRE_OK(irb_image_create(&image, ACROSS, SIDE * layers, 1, &err));
+        for (int y = 0; y < SIDE * layers; y++)
+            for (int x = 0; x < ACROSS; x++)
+                *irb_image_at(&image, x, y) = (float)(y * ACROSS + x);
+        REQUIRE_OK(irb_texture_write(texture, &image, &err));
+        struct irb_frame_output frame = {.irradiance = irradiance};
+        struct irb_debug_layers debug;
+        irb_output_layer(&frame, "maps", texture, IRB_DEBUG_DISTANCE);
+        REQUIRE_OK(irb_debug_layers_read(&debug, &frame, &err));
+        const struct irb_image *kept = &debug.layers[0].image;
+        assert_int_equal(kept->width, (ACROSS + layers - 1) / layers);
+        assert_int_equal(kept->height, SIDE);
+        for (int y = 0; y < SIDE; y++)
+            for (int x = 0; x < kept->width; x++)
+                REQUIRE_NEAR(*irb_image_at(kept, x, y), (y * ACROSS + x) * layers, 0);
+        irb_debug_layers_destroy(&debug);
+        irb_image_destroy(&image);
+        irb_texture_destroy(texture);
+    }
+    irb_texture_destroy(irradiance);
+    irb_gl_destroy(gl);
+}
+
+/* What there is no room for is counted and written nowhere. */
+static void test_no_room(void **state)
+{
+    (void)state;
+    struct irb_frame_output frame = {0}, before;
+    for (int i = 0; i < IRB_MAX_STATISTICS; i++)
+        irb_output_statistic(&frame, "statistic", i);
+    for (int i = 0; i < IRB_MAX_DEBUG_LAYERS; i++)
+        irb_output_layer(&frame, "layer", NULL, IRB_DEBUG_SCALAR);
+    before = frame;
+    for (int i = 0; i < 100; i++) {
+        irb_output_statistic(&frame, "too much", 7);
+        irb_output_layer(&frame, "too much", NULL, IRB_DEBUG_COLOUR);
+    }
+    assert_int_equal(frame.statistic_count, IRB_MAX_STATISTICS + 100);
+    assert_int_equal(frame.debug_count, IRB_MAX_DEBUG_LAYERS + 100);
+    before.statistic_count = frame.statistic_count;
+    before.debug_count = frame.debug_count;
+    assert_memory_equal(&frame, &before, sizeof frame);
+}
+
 static void expect_refusal(struct irb_frame_output *frame, const char *words)
 {
     struct irb_error err = {0};
@@ -369,6 +428,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_nothing_to_scale),
         cmocka_unit_test(test_pngs),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_long_layers),
+        cmocka_unit_test(test_no_room),
     };
     backend = fixture_backend(argc, argv);
     return cmocka_run_group_tests(tests, NULL, NULL);

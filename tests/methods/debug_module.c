@@ -8,19 +8,23 @@
 #include "methods/method.h"
 
 #include <GL/glcorearb.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ATLAS = 16, ATLAS_HEIGHT = 8 };
+enum { ATLAS = 16, ATLAS_HEIGHT = 8, MOST_EXTRA = 60 };
 
 struct params {
     int clusters;
     float distance;
+    int extra;
 };
 
 static const struct irb_option options[] = {
     IRB_OPTION_INT(struct params, clusters, 16, 1, 512, "", "irradiance times 64", "ours"),
     IRB_OPTION_FLOAT(struct params, distance, 2, 0, 100, "m", "in the atlas", "ours"),
+    IRB_OPTION_INT(struct params, extra, 0, 0, MOST_EXTRA, "",
+                   "statistics beside its two, and debug layers beside its three", "ours"),
     IRB_OPTION_END,
 };
 static const char *const stages[] = {"warp", "average", "light", NULL};
@@ -31,6 +35,7 @@ struct state {
     struct irb_texture *irradiance, *map, *split, *atlas; /* all but the first made on demand */
     int width, height, frames;
     float light;
+    char names[MOST_EXTRA][16]; /* of what is extra */
 };
 
 static struct irb_texture *make(struct state *s, unsigned format, int width, int height,
@@ -52,6 +57,8 @@ static void *create(struct irb_gl *gl, const struct irb_scene_gl *scene, int wid
         return NULL;
     *s = (struct state){.gl = gl, .width = width, .height = height};
     s->irradiance = make(s, GL_RGBA32F, width, height, err);
+    for (int i = 0; i < MOST_EXTRA; i++)
+        snprintf(s->names[i], sizeof s->names[i], "extra-%d", i);
     return s;
 }
 
@@ -96,6 +103,8 @@ static bool add_debug(struct state *s, const struct params *p, struct irb_frame_
     out->debug[2].name = "ism-atlas";
     out->debug[2].texture = s->atlas;
     out->debug[2].kind = IRB_DEBUG_DISTANCE;
+    for (int i = 0; i < p->extra; i++)
+        irb_output_layer(out, s->names[i], s->map, IRB_DEBUG_COLOUR);
     return true;
 }
 
@@ -119,6 +128,8 @@ static bool render_frame(void *state, const struct irb_frame_inputs *inputs,
         .statistics = {{"split_share", inputs->frame % 2 ? 0.5 : 0.25}, {"clusters", p->clusters}},
         .statistic_count = 2,
     };
+    for (int i = 0; i < p->extra; i++)
+        irb_output_statistic(output, s->names[i], i);
     return !inputs->debug || add_debug(s, p, output, err);
 }
 
