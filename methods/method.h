@@ -76,9 +76,11 @@ struct irb_frame_output {
         enum irb_debug_kind kind;
     } debug[IRB_MAX_DEBUG_LAYERS];
     int debug_count;
-    /* Reflected flux of the RSM (W, mean of the channels) that the method left out or clamped away,
-     * as a share of all reflected flux in [0,1]; NaN where it is not measured. */
-    double lost_energy;
+    /* Shares in [0,1] of light that the method leaves out, means of the channels; 0 where it leaves
+     * out none, NaN where that is not measured. */
+    double uncovered_flux; /* of the RSM's reflected flux: what no virtual light stands for */
+    double
+        clamped_light; /* of the indirect irradiance that there is without a clamp: what it takes */
     struct {
         const char *name; /* "vpls" */
         double value;

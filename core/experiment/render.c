@@ -235,7 +235,7 @@ static bool render_trial(struct scene_run *scene, struct trial_run *trial, int f
         .debug = debug,
     };
     int64_t before = scene->run->gl->bytes;
-    *output = (struct irb_frame_output){.lost_energy = NAN};
+    *output = (struct irb_frame_output){.uncovered_flux = NAN, .clamped_light = NAN};
     bool ok = trial->trial->method->render_frame(trial->state, &inputs, output, err) &&
               check_statistics(output, err) &&
               irb_gl_check(scene->run->gl, trial->trial->name, err);
@@ -278,9 +278,12 @@ static bool store_frame(struct scene_run *scene, struct trial_run *trial, int fr
     const char *const *names = trial->trial->method->stages;
     for (int i = 0; names[i] && i < IRB_MAX_STAGES; i++)
         stages[stage_count++] = (struct irb_store_value){names[i], ms[i]};
-    struct irb_store_value statistics[IRB_MAX_STATISTICS + 2];
+    struct irb_store_value statistics[IRB_MAX_STATISTICS + 3];
     int statistic_count = 0;
-    statistics[statistic_count++] = (struct irb_store_value){"lost_energy", output->lost_energy};
+    statistics[statistic_count++] =
+        (struct irb_store_value){"uncovered_flux", output->uncovered_flux};
+    statistics[statistic_count++] =
+        (struct irb_store_value){"clamped_light", output->clamped_light};
     statistics[statistic_count++] = (struct irb_store_value){"gl_bytes", (double)trial->bytes};
     for (int i = 0; i < output->statistic_count; i++)
         statistics[statistic_count++] =

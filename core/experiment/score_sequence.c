@@ -181,10 +181,26 @@ static double aggregate(const struct irb_frame_scores *frames, int count, int me
     }
 }
 
-/* lost_energy: mean; gl_bytes: largest. */
+/* A mean over the frames that have a value. */
+struct mean {
+    double sum;
+    int count;
+};
+
+static void mean_add(struct mean *mean, double value)
+{
+    mean->sum += value;
+    mean->count++;
+}
+
+static double mean_of(const struct mean *mean)
+{
+    return mean->count ? mean->sum / mean->count : NAN;
+}
+
 struct statistics {
-    double lost_energy, bytes;
-    int lost_count;
+    struct mean uncovered, clamped;
+    double bytes; /* the most */
 };
 
 static void read_statistic(void *user, int frame, const char *name, double value)
@@ -192,9 +208,10 @@ static void read_statistic(void *user, int frame, const char *name, double value
     struct statistics *s = user;
     if (frame < 0 || isnan(value))
         return;
-    if (!strcmp(name, "lost_energy")) {
-        s->lost_energy += value;
-        s->lost_count++;
+    if (!strcmp(name, "uncovered_flux")) {
+        mean_add(&s->uncovered, value);
+    } else if (!strcmp(name, "clamped_light")) {
+        mean_add(&s->clamped, value);
     } else if (!strcmp(name, "gl_bytes") && !(value <= s->bytes)) {
         s->bytes = value;
     }
@@ -244,8 +261,8 @@ bool irb_sequence_scores_store(const struct irb_frame_scores *frames, int count,
     if (!irb_store_read_statistics(store, trial->id, read_statistic, &statistics, err))
         return false;
     aggregate_all(&whole, frames, count, constants);
-    whole.values[IRB_METRIC_lost_energy] =
-        statistics.lost_count ? statistics.lost_energy / statistics.lost_count : NAN;
+    whole.values[IRB_METRIC_uncovered_flux] = mean_of(&statistics.uncovered);
+    whole.values[IRB_METRIC_clamped_light] = mean_of(&statistics.clamped);
     whole.values[IRB_METRIC_gl_bytes] = statistics.bytes;
     return irb_frame_scores_store(&whole, store, trial, -1, err);
 }

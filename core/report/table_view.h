@@ -19,7 +19,7 @@ struct irb_column {
     bool only_if_any; /* left out where all trials have 0 */
     bool spread;      /* shown with its spread over several seeds */
 };
-enum { IRB_COLUMNS = 13 };
+enum { IRB_COLUMNS = 14 };
 extern const struct irb_column irb_columns[IRB_COLUMNS];
 
 /* The trials of one scene. */

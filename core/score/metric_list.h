@@ -67,8 +67,10 @@
     X(masked_share, "", NONE,                                                                      \
       "share of the pixels with geometry that are left out because the run's G-buffer is not the " \
       "reference's there")                                                                         \
-    X(lost_energy, "", LOWER,                                                                      \
-      "share of the RSM's reflected flux that was clamped away or left out")                       \
+    X(uncovered_flux, "", LOWER,                                                                   \
+      "share of the RSM's reflected flux that no virtual light stands for")                        \
+    X(clamped_light, "", LOWER,                                                                    \
+      "share of the indirect irradiance without a clamp that the method's clamp took")             \
     X(reference_noise, "", NONE,                                                                   \
       "relative MSE that the reference's own noise makes in the indirect image; an error below "   \
       "it is not ranked")                                                                          \

@@ -177,7 +177,7 @@ static bool report(struct acrsm_state *s, const struct irb_frame_inputs *in,
     if (!acrsm_clusters_report(s->clusters, in->rsm, &clusters, err) ||
         (acrsm_has_shadows(r) && !irb_ism_coverage(s->lighting.ism, &coverage, err)))
         return false;
-    out->lost_energy = clusters.uncovered;
+    out->uncovered_flux = clusters.uncovered;
     irb_output_statistic(out, "clusters", clusters.in_use);
     irb_output_statistic(out, "reseeded", clusters.reseeded);
     irb_output_statistic(out, "merged", clusters.merged);

@@ -178,7 +178,7 @@ static bool report(struct cv_state *s, struct irb_frame_output *out, struct irb_
 {
     struct irb_vals_statistics statistics;
     if (!irb_vals_statistics(s->vals, &statistics, err) ||
-        !irb_val_lighting_lost(&s->lighting, s->interleave, &out->lost_energy, err))
+        !irb_val_lighting_lost(&s->lighting, s->interleave, &out->clamped_light, err))
         return false;
     irb_output_statistic(out, "vpls", s->vpls->count);
     irb_output_statistic(out, "vals", statistics.in_use);

@@ -258,7 +258,7 @@ static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
     const struct ism_params *p = in->params;
     struct ism_objects *o = state->objects;
     const bool maps = p->visibility == ISM_IMPERFECT;
-    if (p->clamp > 0 && !irb_shade_lost(o->shade, o->interleave, &out->lost_energy, err))
+    if (p->clamp > 0 && !irb_shade_lost(o->shade, o->interleave, &out->clamped_light, err))
         return false;
     irb_output_statistic(out, "vpls", o->lights->count);
     if (maps && o->points) {

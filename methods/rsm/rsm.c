@@ -11,6 +11,7 @@
 #include "methods/rsm/lowres.h"
 #include "methods/rsm/polar.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 extern const struct irb_method irb_method_rsm;
@@ -287,8 +288,10 @@ static bool report(struct rsm_state *state, const struct rsm_params *p, float bo
                    struct irb_frame_output *out, struct irb_error *err)
 {
     double share = 0;
-    if (bound > 0 && !rsm_energy_lost(state->energy, state->irradiance, &out->lost_energy, err))
+    if (bound > 0 && !rsm_energy_lost(state->energy, state->irradiance, &out->clamped_light, err))
         return false;
+    /* which texels a pixel leaves out depends on its place in the light's image */
+    out->uncovered_flux = p->mode == MODE_POLAR ? NAN : 0;
     if (lowres && !rsm_lowres_share(state->lowres, &share, err))
         return false;
     irb_output_statistic(out, "vpls", p->mode == MODE_POLAR ? p->samples : state->lights->count);

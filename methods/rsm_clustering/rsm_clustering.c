@@ -246,7 +246,7 @@ static bool report(struct rsc_state *s, const struct irb_frame_inputs *in,
     struct rsc_census census;
     if (!rsc_clusters_count(s->clusters, in->rsm, &census, err))
         return false;
-    out->lost_energy = census.flux > 0 ? census.lost_flux / census.flux : 0;
+    out->uncovered_flux = census.flux > 0 ? census.lost_flux / census.flux : 0;
     irb_output_statistic(out, "clusters", r->clustering.clusters);
     irb_output_statistic(out, "active", census.active);
     irb_output_statistic(out, "seeded", census.seeded);

@@ -135,6 +135,8 @@ says() { # says 'what' FOUND EXPECTED
 says "stages in the order in which they run" "$("$IRBENCH" table "$work/debug" --stages --format csv | head -1)" \
     "scene,method,trial,params,seed,seeds,stage_gbuffer_ms,stage_rsm_ms,stage_direct_ms,stage_warp_ms,stage_average_ms,stage_light_ms,frame_ms"
 says "a stage that does not run" "$(column stage_average_ms --stages)" "0 "
+says "flux without a light" "$(column uncovered_flux)" "0.25 "
+says "what the clamp took, where it is measured" "$(column clamped_light)" "0.5 "
 says "a mean over frames" "$(column statistic_clusters --statistics)" "91.4285714 "
 says "a series" "$(column statistic_clusters --frames)" "64 64 64 64 128 128 128 "
 says "another one" "$(column statistic_split_share --frames)" "0.25 0.5 0.25 0.5 0.25 0.5 0.25 "

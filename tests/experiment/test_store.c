@@ -91,7 +91,7 @@ static void fill(struct irb_store *store, int64_t *trial)
     if (*trial < 1)
         fail_msg("%s", err.message);
     const struct irb_store_value stages[] = {{"gather", 4.25}, {"filter", 1e-3}};
-    const struct irb_store_value statistics[] = {{"vpls", 9}, {"lost_energy", NAN}};
+    const struct irb_store_value statistics[] = {{"vpls", 9}, {"uncovered_flux", NAN}};
     for (int frame = 0; frame < 2; frame++)
         REQUIRE_OK(
             irb_store_frame(store, *trial, frame, "finish+clock", stages, 2, statistics, 2, &err));
@@ -148,7 +148,7 @@ static void test_round_trip(void **state)
     require_value(&v, 3, 1, "gather", 4.25);
     v = (struct values){0};
     REQUIRE_OK(irb_store_read_statistics(store, trial, collect, &v, &err));
-    require_value(&v, 0, 0, "lost_energy", NAN);
+    require_value(&v, 0, 0, "uncovered_flux", NAN);
     require_value(&v, 1, 0, "vpls", 9);
     irb_store_close(store);
 }

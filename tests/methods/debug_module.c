@@ -8,6 +8,7 @@
 #include "methods/method.h"
 
 #include <GL/glcorearb.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -124,7 +125,8 @@ static bool render_frame(void *state, const struct irb_frame_inputs *inputs,
     irb_timer_end(inputs->timer);
     *output = (struct irb_frame_output){
         .irradiance = s->irradiance,
-        .lost_energy = 0.25,
+        .uncovered_flux = 0.25,
+        .clamped_light = inputs->frame % 2 ? 0.5 : NAN,
         .statistics = {{"split_share", inputs->frame % 2 ? 0.5 : 0.25}, {"clusters", p->clusters}},
         .statistic_count = 2,
     };

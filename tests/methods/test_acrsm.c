@@ -152,7 +152,7 @@ static void test_sphere(void **state)
         sum += e.data[4 * i];
     }
     REQUIRE_REL(sum / (double)irb_image_pixels(&e), 0.5 * power[0] / (4 * M_PI), 0.03);
-    REQUIRE_NEAR(out.lost_energy, 0, 0);
+    REQUIRE_NEAR(out.uncovered_flux, 0, 0);
     REQUIRE_NEAR(statistic(&out, "clusters"), 512, 8);
     irb_image_destroy(&e);
     fixture_frame_destroy(&f);
@@ -328,7 +328,7 @@ static void test_dark(void **state)
         for (size_t i = 0; i < 4 * irb_image_pixels(&e); i++)
             REQUIRE_NEAR(e.data[i], 0, 0);
         REQUIRE_NEAR(statistic(&out, "clusters"), 0, 0);
-        REQUIRE_NEAR(out.lost_energy, 0, 0);
+        REQUIRE_NEAR(out.uncovered_flux, 0, 0);
         irb_image_destroy(&e);
         fixture_frame_destroy(&f);
     }

@@ -98,7 +98,7 @@ static void test_unoccluded(void **state)
             for (size_t c = 0; c < 3; c++)
                 REQUIRE_NEAR(found.data[4 * i + c], expected.data[4 * i + c],
                              1e-4 * (double)expected.data[4 * i + c]);
-        REQUIRE_NEAR(out.lost_energy, expected_out.lost_energy, 1e-4);
+        REQUIRE_NEAR(out.clamped_light, expected_out.clamped_light, 1e-4);
         REQUIRE_NEAR(statistic(&out, "vpls"), 300, 0);
         irb_image_destroy(&found);
         irb_image_destroy(&expected);
@@ -368,9 +368,9 @@ static void test_scales(void **state)
         struct irb_image e = render(&f, settings, &out);
         const double found = fixture_sum(&e, 1) * (double)s * (double)s / (double)intensities[k];
         sum = k ? sum : found;
-        lost = k ? lost : out.lost_energy;
+        lost = k ? lost : out.clamped_light;
         REQUIRE_REL(found, sum, 5e-3);
-        REQUIRE_REL(out.lost_energy, lost, 0.02);
+        REQUIRE_REL(out.clamped_light, lost, 0.02);
         irb_image_destroy(&e);
         fixture_frame_destroy(&f);
     }

@@ -66,8 +66,9 @@ static struct irb_image next_frame(struct trial *t)
     struct irb_image e = fixture_read(t->out.irradiance, 4);
     for (size_t i = 0; i < 4 * irb_image_pixels(&e); i++)
         assert_true(isfinite(e.data[i]) && e.data[i] >= 0);
-    REQUIRE_CMP(t->out.lost_energy, >=, 0);
-    REQUIRE_CMP(t->out.lost_energy, <=, 1);
+    REQUIRE_CMP(t->out.uncovered_flux, >=, 0);
+    REQUIRE_CMP(t->out.uncovered_flux, <=, 1);
+    REQUIRE_NEAR(t->out.clamped_light, 0, 0);
     return e;
 }
 
@@ -403,7 +404,7 @@ static void test_odd_frames(void **state)
         if (frames[i].dark) {
             REQUIRE_NEAR(total(&e), 0, 0);
             REQUIRE_NEAR(statistic(&t.out, "active"), 0, 0);
-            REQUIRE_NEAR(t.out.lost_energy, 0, 0);
+            REQUIRE_NEAR(t.out.uncovered_flux, 0, 0);
         } else {
             REQUIRE_CMP(statistic(&t.out, "active"), >, 0);
             REQUIRE_NEAR(total(&e) > 0, !frames[i].away, 0);

@@ -17,7 +17,7 @@ static bool add_frame(struct irb_store *store, int64_t trial, int frame, double 
 {
     const struct irb_store_value stages[] = {
         {"gbuffer", 1}, {"warp", warp}, {"light", light}, {"average", 0}};
-    const struct irb_store_value statistics[] = {{"clusters", clusters}, {"lost_energy", NAN}};
+    const struct irb_store_value statistics[] = {{"clusters", clusters}, {"uncovered_flux", NAN}};
     return irb_store_frame(store, trial, frame, "clock", stages, 4, statistics, 2, err);
 }
 
@@ -164,7 +164,7 @@ static void test_stages(void **state)
 }
 
 /* Means of 16, 32, 48 and of 16, 16: 32 and 16, whose mean is 24. There is no table of
- * a method without any, and lost_energy is nowhere. */
+ * a method without any, and uncovered_flux is nowhere. */
 static void test_statistics(void **state)
 {
     expect_text(*state, IRB_TABLE_STATISTICS, IRB_TABLE_TEXT, false,
