@@ -10,7 +10,7 @@ const struct irb_command irb_commands[] = {
      "done again; Ctrl-C keeps everything.\n\n"
      "  irbench run experiments/quick.yaml\n"
      "  irbench run experiments/quick.yaml --set frames=2 --set reference.noise=0.05 --out /tmp/q\n"
-     "  irbench run experiments/quick.yaml --only rsm:samples=100\n"
+     "  irbench run experiments/quick.yaml --only rsm:mode=uniform:samples=100\n"
      "  irbench run experiments/quick.yaml --debug-layers --keep all\n",
      irb_command_run},
     {"table", "RUN", 1, 1, "print the results of a run folder",

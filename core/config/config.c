@@ -31,8 +31,6 @@ const struct irb_option irb_render_options[] = {
     IRB_OPTION_FLOAT(struct irb_render_settings, exposure, 0, 0, 1e9, "",
                      "factor on radiance before previews are tone-mapped; 0 = from the reference",
                      "ours"),
-    IRB_OPTION_INT(struct irb_render_settings, repeats, 1, 1, 1000, "",
-                   "timed repeats of the sequence; without effect so far: one is rendered", "ours"),
     IRB_OPTION_END,
 };
 

@@ -23,7 +23,6 @@ struct irb_render_settings {
     int gbuffer_layout; /* enum irb_layout: what methods are given */
     int rsm_layout;     /* enum irb_layout: what methods are given */
     float exposure;     /* of previews, a factor on radiance; 0 = from the reference */
-    int repeats;        /* timed repeats of the sequence; nothing reads it yet */
 };
 extern const struct irb_option irb_render_options[];
 

@@ -62,7 +62,6 @@ static const char full_text[] =
     "settle: 0\n"
     "rsm_resolution: 128\n"
     "exposure: 0.5\n"
-    "repeats: 3\n"
     "reference: {min_samples: 16, max_samples: 128, noise: 0.02, bounces: 4, unoccluded: true}\n"
     "scenes:\n"
     "  - scene: cornell\n"
@@ -106,7 +105,6 @@ static void test_every_key(void **state)
     assert_int_equal(c.render.settle, 0);
     assert_int_equal(c.render.rsm_resolution, 128);
     REQUIRE_NEAR(c.render.exposure, 0.5, 0);
-    assert_int_equal(c.render.repeats, 3);
     assert_int_equal(c.reference.min_samples, 16);
     assert_int_equal(c.reference.max_samples, 128);
     REQUIRE_NEAR(c.reference.noise, 0.02, 1e-8);
@@ -427,8 +425,8 @@ static void test_key(void **state)
         key_with("scene: cornell\ntrials: ['rsm:samples=1', 'rsm:samples=2']", NULL).hex);
     /* but everything that changes a result */
     static const char *const changes[] = {
-        "seed=8",    "frames=10",           "resolution=64x48",    "rsm_resolution=64", "settle=1",
-        "repeats=1", "reference.noise=0.5", "reference.bounces=3", "exposure=1",
+        "seed=8",   "frames=10",           "resolution=64x48",    "rsm_resolution=64",
+        "settle=1", "reference.noise=0.5", "reference.bounces=3", "exposure=1",
     };
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++)
         if (!strcmp(key_with(full_text, changes[i]).hex, key.hex))
