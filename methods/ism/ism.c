@@ -10,8 +10,8 @@
 #include "methods/method.h"
 
 #include "core/frame/shadow_term.h"
-#include "core/sampling/halton.h"
 #include "core/lights/tessellation.h"
+#include "core/sampling/halton.h"
 #include "core/sampling/sobol.h"
 #include "methods/ism/objects.h"
 
