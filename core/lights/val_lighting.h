@@ -12,6 +12,26 @@
 #include "core/lights/lost_light.h"
 #include "core/lights/vals.h"
 
+/* What methods set by default, and where they have no option. Source: ours, for the reasons that
+ * clustered-visibility gives with its options; Annen et al. 2007 for the scale. */
+#define IRB_VALS_DEFAULT_COUNT 16
+#define IRB_VALS_DEFAULT_W_X 1   /* of distances in diagonals of the scene */
+#define IRB_VALS_DEFAULT_W_A 0.5 /* 1/rad */
+#define IRB_VALS_DEFAULT_ITERATIONS 64
+#define IRB_VALS_DEFAULT_START IRB_VALS_RESTART
+#define IRB_VALS_DEFAULT_AREA IRB_VALS_AREA_MOMENT
+#define IRB_VALS_DEFAULT_CENTRE IRB_VALS_CENTRE_LIFTED
+#define IRB_VALS_DEFAULT_PROJECTION IRB_RASTER_PARABOLOID
+#define IRB_VALS_DEFAULT_NEAR 1e-3 /* diagonals of the scene */
+#define IRB_CSM_DEFAULT_ORDER 4
+#define IRB_CSM_DEFAULT_PREFILTER IRB_CSM_MIP
+#define IRB_CSM_DEFAULT_OFFSET 0
+#define IRB_CSM_DEFAULT_SCALE 2
+#define IRB_CSM_DEFAULT_SEARCH_OFFSET 0.613
+#define IRB_CSM_DEFAULT_SEARCH_SCALE 1
+#define IRB_CSM_DEFAULT_PENUMBRA_SCALE 1
+#define IRB_CSM_DEFAULT_DAMPING 0
+
 struct irb_val_lighting_settings {
     bool visibility; /* false: V = 1, without maps */
     bool discs; /* F of the lights' areas (thesis eq. 5.5); else they are points, whatever their

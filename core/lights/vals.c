@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 const char *const irb_vals_start_names[] = {"restart", "reuse", NULL};
-const char *const irb_vals_extent_names[] = {"moment", "max", NULL};
+const char *const irb_vals_area_names[] = {"moment", "max", NULL};
 const char *const irb_vals_centre_names[] = {"mean", "lifted", "member", NULL};
 
 /* Shader storage bindings and work group of shaders/lights/vals_*. */
@@ -144,7 +144,7 @@ bool irb_vals_cluster(struct irb_vals *v, const struct irb_virtual_lights *vpls,
     irb_program_use(v->finish);
     irb_program_int(v->finish, "vpl_count", vpls->count);
     irb_program_int(v->finish, "val_count", s->vals);
-    irb_program_int(v->finish, "extent", (int)s->extent);
+    irb_program_int(v->finish, "area_kind", (int)s->area);
     irb_program_int(v->finish, "stand", (int)s->centre);
     v->gl->api.DispatchCompute((unsigned)(s->vals + GROUP - 1) / GROUP, 1, 1);
     barrier(v);

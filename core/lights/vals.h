@@ -20,10 +20,10 @@
 enum { IRB_VALS_MOST_LIGHTS = 2048, IRB_VALS_MOST = 128 };
 
 enum irb_vals_start { IRB_VALS_RESTART, IRB_VALS_REUSE };
-enum irb_vals_extent { IRB_VALS_EXTENT_MOMENT, IRB_VALS_EXTENT_MAX };
+enum irb_vals_area { IRB_VALS_AREA_MOMENT, IRB_VALS_AREA_MAX };
 enum irb_vals_centre { IRB_VALS_CENTRE_MEAN, IRB_VALS_CENTRE_LIFTED, IRB_VALS_CENTRE_MEMBER };
 extern const char *const irb_vals_start_names[];  /* "restart", "reuse", NULL */
-extern const char *const irb_vals_extent_names[]; /* "moment", "max", NULL */
+extern const char *const irb_vals_area_names[];   /* "moment", "max", NULL */
 extern const char *const irb_vals_centre_names[]; /* "mean", "lifted", "member", NULL */
 
 struct irb_vals_settings {
@@ -32,9 +32,9 @@ struct irb_vals_settings {
     float weight_angle;    /* w_a, 1/rad */
     int iterations;        /* at most, >= 1 */
     enum irb_vals_start start;
-    enum irb_vals_extent extent; /* radius of a VAL: of the disc with its VPLs' second moment, which
-                              is sqrt(2 mean |x - c|^2 + mean A/pi), or to the rim of its farthest
-                              VPL */
+    enum irb_vals_area area;     /* of a VAL: of the disc with its VPLs' second moment, of radius
+                                  sqrt(2 mean |x - c|^2 + mean A/pi), or to the rim of its farthest
+                                  VPL */
     enum irb_vals_centre centre; /* where its shadow map stands: at the mean of its VPLs; that,
                               lifted along the mean normal to the height of the highest of them; or
                               at the VPL that is nearest to it */

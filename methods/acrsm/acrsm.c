@@ -161,9 +161,9 @@ static bool light(struct acrsm_state *s, const struct irb_frame_inputs *in,
     IRB_STAGE(ok, in, STAGE_LIGHT,
               irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
     IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(l->interleave, err));
-    IRB_STAGE(
-        ok, in, STAGE_FILTER,
-        irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
+    IRB_STAGE(ok, in, STAGE_FILTER,
+              irb_interleave_filter(l->interleave, in->gbuffer, r->filter_depth, r->filter_cosine,
+                                    s->irradiance, err));
     return ok;
 }
 
@@ -178,17 +178,18 @@ static bool report(struct acrsm_state *s, const struct irb_frame_inputs *in,
         (acrsm_has_shadows(r) && !irb_ism_coverage(s->lighting.ism, &coverage, err)))
         return false;
     out->uncovered_flux = clusters.uncovered;
-    irb_output_statistic(out, "clusters", clusters.in_use);
-    irb_output_statistic(out, "reseeded", clusters.reseeded);
+    irb_output_statistic(out, "clusters", r->clustering.clusters);
+    irb_output_statistic(out, "clusters_in_use", clusters.in_use);
+    irb_output_statistic(out, "seeded", clusters.seeded);
     irb_output_statistic(out, "merged", clusters.merged);
     irb_output_statistic(out, "split", clusters.split);
     irb_output_statistic(out, "delta_spread", clusters.spread);
     irb_output_statistic(out, "count_spread", clusters.count_spread);
     irb_output_statistic(out, "flux_gain", clusters.gain);
     if (acrsm_has_shadows(r))
-        irb_output_statistic(out, "ism_coverage", coverage);
+        irb_output_statistic(out, "coverage", coverage);
     if (acrsm_has_shadows(r) && !r->dynamic_points)
-        irb_output_statistic(out, "point-bytes", (double)s->lighting.points->bytes);
+        irb_output_statistic(out, "point_bytes", (double)s->lighting.points->bytes);
     return true;
 }
 

@@ -152,7 +152,7 @@ static inline struct irb_virtual_lights acrsm_clusters_lights(const struct acrsm
 /* What a frame's report says; waits for the GPU. Shares are of the RSM's reflected flux (mean of
  * the channels), 0 where there is none. */
 struct acrsm_report {
-    int in_use, reseeded, merged, split;
+    int in_use, seeded, merged, split;
     double uncovered; /* share of the flux of lit texels that no cluster has */
     double gain;      /* flux of the lights minus that of the clusters' texels, as a share; 0 but
                          for rounding with ACRSM_FLUX_SUM */

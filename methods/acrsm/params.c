@@ -23,7 +23,7 @@ static const char *const areas[] = {"max", "moment", NULL};
 static const char *const spaces[] = {"light", "world", NULL};
 enum { FORM_VAL, FORM_VPL };
 static const char *const form_factors[] = {"val", "vpl", NULL};
-static const char *const visibilities[] = {"none", "binary", "pcss", NULL};
+static const char *const visibilities[] = {"none", "ism", "pcss", NULL};
 static const char *const point_kinds[] = {"static", "dynamic", NULL};
 static const char *const smoothsteps[] = {"3", "5", NULL};
 
@@ -67,13 +67,13 @@ const struct irb_option acrsm_options[] = {
                      "a split's seed lies within this share of the cluster's radius, on a texel of "
                      "the cluster's",
                      "thesis 5.3.1: within the radius"),
-    IRB_OPTION_FLOAT(P, w_x, 0.9, 0, 1e3, "",
+    IRB_OPTION_FLOAT(P, w_x, 0.9, 0, 1e6, "",
                      "weight of the distance (over the diagonal of the scene at rest) from texel "
                      "to cluster",
                      "thesis eq. 4.4; value: ours"),
-    IRB_OPTION_FLOAT(P, w_n, 0.08, 0, 1e3, "", "weight of the normals' difference",
+    IRB_OPTION_FLOAT(P, w_n, 0.08, 0, 1e6, "", "weight of the normals' difference",
                      "thesis eq. 4.4; value: ours"),
-    IRB_OPTION_FLOAT(P, w_rho, 0.02, 0, 1e3, "", "weight of the importances' difference",
+    IRB_OPTION_FLOAT(P, w_rho, 0.02, 0, 1e6, "", "weight of the importances' difference",
                      "thesis eq. 4.4; value: ours"),
     IRB_OPTION_ENUM(P, normal_metric, ACRSM_NORMALS_ABS, normal_metrics,
                     "normals' difference: 1 - |n.c|, which puts both sides of a wall together, or "
@@ -93,11 +93,12 @@ const struct irb_option acrsm_options[] = {
     IRB_OPTION_ENUM(P, space, ACRSM_SPACE_LIGHT, spaces,
                     "what clusters rest in from frame to frame: the light's view, or the world",
                     "thesis 5.1.2: view space; world: ours"),
-    IRB_OPTION_FLOAT(P, w_d, 0.5, 0, 1, "",
-                     "weight of the diffuse part of the importance; the rest is the specular's",
-                     "thesis eq. 4.1; value: ours"),
-    IRB_OPTION_FLOAT(P, w_v, 0, 0, 1, "",
-                     "weight of the view-dependent part of the importance; 0 = off",
+    IRB_OPTION_FLOAT(
+        P, diffuse_weight, 0.5, 0, 1, "",
+        "w_d: weight of the diffuse part of the importance; the rest is the specular's",
+        "thesis eq. 4.1; value: ours"),
+    IRB_OPTION_FLOAT(P, view_weight, 0, 0, 1, "",
+                     "w_v: weight of the view-dependent part of the importance; 0 = off",
                      "thesis eq. 4.3; value: ours"),
     IRB_OPTION_INT(P, view_samples, 16, 1, IRB_IMPORTANCE_MOST_VIEW_SAMPLES, "",
                    "M: visible points that the view-dependent importance is a mean over",
@@ -112,10 +113,11 @@ const struct irb_option acrsm_options[] = {
                    "thesis 4.5, algorithm 5.3; value: ours"),
     IRB_OPTION_ENUM(P, form_factor, FORM_VAL, form_factors,
                     "of an area light (bounded), or of a point light", "thesis eqs 5.5, 3.6"),
-    IRB_OPTION_ENUM(P, visibility, IRB_SHADE_PCSS, visibilities,
-                    "shadows from imperfect shadow maps: none, of the lights' centres, or of their "
-                    "discs by percentage-closer soft shadows",
-                    "thesis 5.3.3"),
+    IRB_OPTION_ENUM(
+        P, visibility, IRB_SHADE_PCSS, visibilities,
+        "indirect shadows: none; or from an imperfect shadow map a light: ism, one look-up, of the "
+        "light's centre; or pcss, of its disc by percentage-closer soft shadows",
+        "thesis 5.3.3"),
     IRB_OPTION_ENUM(P, points, ACRSM_POINTS_STATIC, point_kinds,
                     "of the scene, that shadow maps are splatted from: tessellated once by "
                     "algorithm 5.2, or by the tessellator in each frame",
@@ -145,10 +147,10 @@ const struct irb_option acrsm_options[] = {
     IRB_OPTION_FLOAT(
         P, near, 1e-3, 0, 1, "",
         "points nearer to a light than this share of the scene's diagonal are left out "
-        "of its map",
+        "of its map: those of its own surface",
         "ours"),
     IRB_OPTION_FLOAT(P, near_radii, 1, 0, 16, "",
-                     "likewise, in radii of the area light: its own surface, which lies before its "
+                     "likewise, in radii of the area light, whose own surface lies before its "
                      "centre where it bends; 0 = off",
                      "ours"),
     IRB_OPTION_INT(P, pull_push, 0, 0, 5, "levels",
@@ -169,7 +171,7 @@ const struct irb_option acrsm_options[] = {
                      "thesis eq. 3.2; value: ours"),
     IRB_OPTION_FLOAT(P, bias, 0.01, 0, 0.99, "",
                      "share of the distance by which what shadows must be nearer", "ours"),
-    IRB_OPTION_FLOAT(P, slope, 2.5, 0, 16, "texels",
+    IRB_OPTION_FLOAT(P, slope, 2.5, 0, 64, "texels",
                      "the same for the slope of the receiver over so many texels of a shadow map",
                      "ours"),
     IRB_OPTION_FLOAT(P, offset, 1e-3, 0, 1, "",
@@ -178,13 +180,14 @@ const struct irb_option acrsm_options[] = {
                    "n: tiles across of the interleaved shading", "thesis 5.1.4"),
     IRB_OPTION_INT(P, interleave_m, 3, 1, IRB_INTERLEAVE_MOST, "",
                    "m: tiles up of the interleaved shading", "thesis 5.1.4"),
-    IRB_OPTION_FLOAT(
-        P, alpha, 0.05, 0, 10, "",
-        "filter: largest difference of two pixels' distances to the camera, as a share "
-        "of the scene's diagonal",
-        "thesis 5.3.3; value: ours"),
-    IRB_OPTION_FLOAT(P, beta, 0.9, -1, 1, "", "filter: least cosine between two pixels' normals",
+    IRB_OPTION_FLOAT(P, filter_depth, 0.05, 0, 10, "",
+                     "alpha: largest difference of two pixels' distances to the camera that the "
+                     "filter averages, as a share of the scene's diagonal",
                      "thesis 5.3.3; value: ours"),
+    IRB_OPTION_FLOAT(
+        P, filter_cosine, 0.9, -1, 1, "",
+        "beta: least cosine between the normals of two pixels that the filter averages",
+        "thesis 5.3.3; value: ours"),
     IRB_OPTION_END,
 };
 #undef P
@@ -256,8 +259,8 @@ void acrsm_params_resolve(const struct acrsm_params *p, int rsm_resolution, floa
     const int smoothstep = p->smoothstep ? 5 : 3;
     *out = (struct acrsm_resolved){
         .clustering = clustering_of(p, rsm_resolution, diagonal),
-        .importance = {.diffuse_weight = p->w_d,
-                       .view_weight = p->w_v,
+        .importance = {.diffuse_weight = p->diffuse_weight,
+                       .view_weight = p->view_weight,
                        .view_samples = p->view_samples,
                        .norm = choose(p, p->importance_norm, IRB_IMPORTANCE_NORM_MAX,
                                       IRB_IMPORTANCE_NORM_NONE),
@@ -276,8 +279,8 @@ void acrsm_params_resolve(const struct acrsm_params *p, int rsm_resolution, floa
                   .search_scale = p->search_scale,
                   .penumbra_scale = p->penumbra_scale,
                   .point_form_factor = p->form_factor == FORM_VPL},
-        .depth = p->alpha * diagonal,
-        .cosine = p->beta,
+        .filter_depth = p->filter_depth * diagonal,
+        .filter_cosine = p->filter_cosine,
     };
     out->ism = ism_of(p, out->dynamic_points, smoothstep);
 }

@@ -21,7 +21,7 @@ struct acrsm_params {
     int neighbours;
     float w_x, w_n, w_rho;
     int normal_metric, cover, area, flux, space;
-    float w_d, w_v;
+    float diffuse_weight, view_weight;
     int view_samples, importance_norm, warp_levels;
     int form_factor, visibility;
     int points;
@@ -36,7 +36,7 @@ struct acrsm_params {
     int taps, blocker_taps;
     float search_scale, penumbra_scale, bias, slope, offset;
     int interleave_n, interleave_m;
-    float alpha, beta;
+    float filter_depth, filter_cosine;
 };
 
 extern const struct irb_option acrsm_options[];
@@ -50,7 +50,7 @@ struct acrsm_resolved {
     bool dynamic_points; /* no point set: tessellation at every frame */
     struct irb_ism_settings ism;
     struct irb_shade_settings shade;
-    float depth, cosine; /* thresholds of the filter: m, 1 */
+    float filter_depth, filter_cosine; /* m, 1 */
 };
 
 /* diagonal: of the scene at rest, m, 0 for a scene without extent; seed: of the sequence. */

@@ -92,7 +92,7 @@ bool acrsm_clusters_report(struct acrsm_clusters *c, const struct irb_rsm *rsm,
     }
     out->merged = (int)lists[0];
     out->split = (int)lists[1];
-    out->reseeded = (int)lists[2];
+    out->seeded = (int)lists[2];
     out->uncovered = total > 0 ? uncovered / total : 0;
     out->gain = total > 0 ? (emitted - mapped) / total : 0;
     return true;

@@ -108,14 +108,14 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-static bool prepare_interleave(struct cv_state *s, int side, struct irb_error *err)
+static bool prepare_interleave(struct cv_state *s, int n, int m, struct irb_error *err)
 {
     const struct irb_interleave *have = s->interleave;
     if (have && have->width == s->width && have->height == s->height &&
-        have->n == smaller(side, s->width) && have->m == smaller(side, s->height))
+        have->n == smaller(n, s->width) && have->m == smaller(m, s->height))
         return true;
     irb_interleave_destroy(s->interleave);
-    s->interleave = irb_interleave_create(s->gl, s->width, s->height, side, side, err);
+    s->interleave = irb_interleave_create(s->gl, s->width, s->height, n, m, err);
     return s->interleave != NULL;
 }
 
@@ -167,9 +167,9 @@ static bool light(struct cv_state *s, const struct irb_frame_inputs *in,
                   irb_val_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
     }
     IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(s->interleave, err));
-    IRB_STAGE(
-        ok, in, STAGE_FILTER,
-        irb_interleave_filter(s->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
+    IRB_STAGE(ok, in, STAGE_FILTER,
+              irb_interleave_filter(s->interleave, in->gbuffer, r->filter_depth, r->filter_cosine,
+                                    s->irradiance, err));
     return ok;
 }
 
@@ -181,7 +181,7 @@ static bool report(struct cv_state *s, struct irb_frame_output *out, struct irb_
         !irb_val_lighting_lost(&s->lighting, s->interleave, &out->clamped_light, err))
         return false;
     irb_output_statistic(out, "vpls", s->vpls->count);
-    irb_output_statistic(out, "vals", statistics.in_use);
+    irb_output_statistic(out, "vals_in_use", statistics.in_use);
     irb_output_statistic(out, "iterations", statistics.iterations);
     irb_output_statistic(out, "converged", statistics.converged);
     return true;
@@ -197,10 +197,10 @@ static bool draw_pictures(struct cv_state *s, const struct irb_frame_inputs *in,
                           maps ? s->lighting.csm : NULL, err))
         return false;
     irb_output_layer(out, "vals", s->pictures->vals, IRB_DEBUG_COLOUR);
-    irb_output_layer(out, "shadow", s->pictures->shadow->image, IRB_DEBUG_SCALAR);
+    irb_output_layer(out, "shadow-term", s->pictures->shadow->image, IRB_DEBUG_SCALAR);
     if (maps) {
-        irb_output_layer(out, "maps", s->lighting.maps->distance, IRB_DEBUG_DISTANCE);
-        irb_output_layer(out, "basis", s->pictures->basis, IRB_DEBUG_COLOUR);
+        irb_output_layer(out, "csm-maps", s->lighting.maps->distance, IRB_DEBUG_DISTANCE);
+        irb_output_layer(out, "csm-basis", s->pictures->basis, IRB_DEBUG_COLOUR);
     }
     return true;
 }
@@ -212,7 +212,8 @@ static bool cv_render_frame(void *user, const struct irb_frame_inputs *in,
     struct cv_resolved r;
     *out = (struct irb_frame_output){.irradiance = s->irradiance};
     cv_params_resolve(in->params, irb_scene_diagonal(in->scene->scene), s->seed, &r);
-    if (!prepare_interleave(s, r.interleave, err) || !prepare_vpls(s, in->rsm->resolution, err) ||
+    if (!prepare_interleave(s, r.interleave_n, r.interleave_m, err) ||
+        !prepare_vpls(s, in->rsm->resolution, err) ||
         !irb_val_lighting_prepare(&s->lighting, s->interleave, &r.lighting, r.clustering.vals, err))
         return false;
     r.clustering.tiles = s->vpls->tiles;

@@ -14,14 +14,15 @@
 struct cv_params {
     int vpls, vals;
     float w_x, w_a;
-    int metric_unit, iterations, start, extent, centre;
+    int metric_unit, iterations, start, area, centre;
     int visibility, projection, map_size;
     float near;
-    int order, prefilter;
-    float offset, scale, search_offset, search_scale, penumbra_scale, damping;
+    int csm_order, csm_prefilter;
+    float csm_offset, csm_scale, csm_search_offset, csm_damping;
+    float search_scale, penumbra_scale;
     float clamp;
-    int interleave;
-    float alpha, beta;
+    int interleave_n, interleave_m;
+    float filter_depth, filter_cosine;
 };
 
 extern const struct irb_option cv_options[];
@@ -31,8 +32,8 @@ struct cv_resolved {
     unsigned first; /* index of the first Halton point */
     struct irb_vals_settings clustering;
     struct irb_val_lighting_settings lighting;
-    int interleave;      /* tiles a side */
-    float depth, cosine; /* thresholds of the filter: m, 1 */
+    int interleave_n, interleave_m;    /* tiles across, up */
+    float filter_depth, filter_cosine; /* m, 1 */
 };
 
 /* diagonal: of the scene at rest, m, 0 for a scene without extent; seed: of the sequence. The

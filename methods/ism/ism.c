@@ -124,7 +124,7 @@ static struct irb_ism_settings map_settings(const struct ism_params *p)
         .splat_scale = p->splat_scale,
         .splat_size = p->splat_size,
         .splat_most = p->splat_most,
-        .near = p->splat_near,
+        .near = p->near,
         .pull_push = p->pull_push < halvings ? p->pull_push : halvings,
         .pull = p->pull,
         .f_min = p->f_min,
@@ -263,11 +263,11 @@ static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
     irb_output_statistic(out, "vpls", o->lights->count);
     if (maps && o->points) {
         irb_output_statistic(out, "points", (double)o->points->count);
-        irb_output_statistic(out, "point-bytes", (double)o->points->bytes);
+        irb_output_statistic(out, "point_bytes", (double)o->points->bytes);
         irb_output_statistic(out, "splats", (double)o->points->count * (double)p->splat_factor);
     }
     if (maps) {
-        irb_output_statistic(out, "coverage-splatted", coverage->splatted);
+        irb_output_statistic(out, "coverage_splatted", coverage->splatted);
         irb_output_statistic(out, "coverage", coverage->filled);
     }
     return !in->debug || debug(state, maps, out, err);

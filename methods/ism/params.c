@@ -30,10 +30,10 @@ const struct irb_option ism_options[] = {
         struct ism_params, view_weight, 0.5, 0, 0.95, "",
         "bidirectional: w_v, the view's part in rho; below 1, so that every texel that "
         "reflects can be drawn",
-        "thesis eq. 4.3; the value: ours"),
+        "thesis eq. 4.3; value: ours"),
     IRB_OPTION_INT(struct ism_params, view_samples, 64, 1, IRB_IMPORTANCE_MOST_VIEW_SAMPLES, "",
                    "bidirectional: M, visible points that rho_v is the mean over",
-                   "thesis eq. 4.2; the value: ours"),
+                   "thesis eq. 4.2; value: ours"),
     IRB_OPTION_ENUM(struct ism_params, visibility, ISM_IMPERFECT, visibilities,
                     "of the lights: no shadows; imperfect shadow maps; or, as the best that this "
                     "family can do, the triangles rasterised into a hemicube for each light",
@@ -45,14 +45,14 @@ const struct irb_option ism_options[] = {
         "area: " RITSCHEL_2008 "; thesis 5.2"),
     IRB_OPTION_INT(struct ism_params, point_count, 1 << 20, 1, 1 << 26, "",
                    "area: points of the whole scene; each map gets one in `vpls` of them",
-                   RITSCHEL_2008 "; the value: as many as the thesis's 512 maps take, 6.2"),
+                   RITSCHEL_2008 "; value: as many as the thesis's 512 maps take, 6.2"),
     IRB_OPTION_BOOL(struct ism_params, redraw_points, 0, "area: draw other points in every frame",
                     RITSCHEL_2008),
     IRB_OPTION_FLOAT(struct ism_params, adaptive_points, 0, 0, 0.95, "",
                      "area: share of the points that goes by how large triangles look from the "
                      "frame's lights (mean form factor, no occlusion), the rest by area; made in "
                      "every frame; for splat_size surface",
-                     "after " RITSCHEL_2011 "; the measure: ours"),
+                     "after " RITSCHEL_2011 "; measure: ours"),
     IRB_OPTION_FLOAT(struct ism_params, f_min, 5, 1, 64, "",
                      "tessellation, dynamic: least factor of an edge or a triangle",
                      "thesis eqs 5.3-5.4, algorithm 5.2"),
@@ -67,11 +67,11 @@ const struct irb_option ism_options[] = {
                     "area, tessellation: splats by atomic minima in a compute shader, or drawn as "
                     "points with a depth test",
                     "raster: thesis 5.3.2; atomic: ours"),
-    IRB_OPTION_FLOAT(struct ism_params, splat_factor, 1, 0.01, 64, "",
-                     "s_f: maps that each point is splatted into; below 1 a share of the points is "
-                     "left out",
-                     "thesis 5.3.2, table 6.1"),
-    IRB_OPTION_FLOAT(struct ism_params, splat_scale, 1, 0.1, 8, "",
+    IRB_OPTION_FLOAT(
+        struct ism_params, splat_factor, 1, 0.01, 64, "",
+        "s_f: maps that each point is splatted into; below 1, share of the points that are",
+        "thesis 5.3.2, table 6.1"),
+    IRB_OPTION_FLOAT(struct ism_params, splat_scale, 1, 0.05, 16, "",
                      "size of a splat; 1 = as large as the part of the surface that one of a map's "
                      "points stands for",
                      "ours"),
@@ -79,19 +79,19 @@ const struct irb_option ism_options[] = {
                     "what that part is: the same for all points; or that of the point's own "
                     "triangle, as it looks from the light",
                     "even: thesis 5.3.2; surface: ours"),
-    IRB_OPTION_INT(struct ism_params, splat_most, 9, 1, 64, "texels", "largest side of a splat",
+    IRB_OPTION_INT(struct ism_params, splat_most, 9, 1, 128, "texels", "largest side of a splat",
                    "ours"),
-    IRB_OPTION_FLOAT(struct ism_params, splat_near, 0.002, 0, 1, "",
+    IRB_OPTION_FLOAT(struct ism_params, near, 0.002, 0, 1, "",
                      "points nearer to a light than this share of the scene's diagonal are left "
-                     "out: those of its own surface",
+                     "out of its map: those of its own surface",
                      "ours"),
     IRB_OPTION_ENUM(struct ism_params, map_size, ISM_MAP_128, map_sizes,
                     "side of a shadow map, texels; with exact-raster, of a face of the hemicube",
                     "thesis 5.1.3"),
-    IRB_OPTION_INT(struct ism_params, pull_push, 4, 0, 9, "",
-                   "levels by which holes are filled, as many as the map's side can be halved at "
-                   "most; 0 = none",
-                   "thesis 5.3.2; the value: ours"),
+    IRB_OPTION_INT(struct ism_params, pull_push, 4, 0, 9, "levels",
+                   "j: levels of pull-push that fill holes of the shadow maps, at most as many as "
+                   "the map's side can be halved; 0 = off",
+                   "thesis 5.3.2; value: ours"),
     IRB_OPTION_ENUM(struct ism_params, pull, IRB_ISM_MEAN, irb_ism_pull_names,
                     "of four texels: their median, or the mean of those close in depth",
                     "mean: " RITSCHEL_2008 "; median: thesis 5.3.2"),
@@ -105,21 +105,21 @@ const struct irb_option ism_options[] = {
     IRB_OPTION_FLOAT(struct ism_params, offset, 0.01, 0, 1, "",
                      "see bias; as a share of the scene's diagonal", "ours"),
     IRB_OPTION_INT(struct ism_params, interleave_n, 3, 1, IRB_INTERLEAVE_MOST, "",
-                   "tiles across: each n-th column of pixels is lit by a part of the lights",
-                   "thesis 5.1.4"),
-    IRB_OPTION_INT(struct ism_params, interleave_m, 3, 1, IRB_INTERLEAVE_MOST, "", "tiles up",
-                   "thesis 5.1.4"),
+                   "n: tiles across of the interleaved shading", "thesis 5.1.4"),
+    IRB_OPTION_INT(struct ism_params, interleave_m, 3, 1, IRB_INTERLEAVE_MOST, "",
+                   "m: tiles up of the interleaved shading", "thesis 5.1.4"),
     IRB_OPTION_FLOAT(struct ism_params, filter_depth, 0.05, 0, 10, "",
-                     "alpha: pixels are averaged whose distances to the camera differ by less than "
-                     "this share of the scene's diagonal",
-                     "thesis 5.3.3; the value: ours"),
-    IRB_OPTION_FLOAT(struct ism_params, filter_cosine, 0.95, -1, 1, "",
-                     "beta: and the cosine of whose normals is at least this",
-                     "thesis 5.3.3; the value: ours"),
+                     "alpha: largest difference of two pixels' distances to the camera that the "
+                     "filter averages, as a share of the scene's diagonal",
+                     "thesis 5.3.3; value: ours"),
+    IRB_OPTION_FLOAT(
+        struct ism_params, filter_cosine, 0.95, -1, 1, "",
+        "beta: least cosine between the normals of two pixels that the filter averages",
+        "thesis 5.3.3; value: ours"),
     IRB_OPTION_FLOAT(
         struct ism_params, clamp, 0, 0, 1e12, "",
         "largest cos cos d^2/r^2 of a light and a pixel, d the diagonal of the scene's bounds; 0 = "
         "no clamp",
-        "thesis 3.2.1; the unit: ours"),
+        "thesis 3.2.1; unit: ours"),
     IRB_OPTION_END,
 };

@@ -32,7 +32,7 @@ struct ism_params {
     float splat_factor, splat_scale;
     int splat_size; /* enum irb_ism_size */
     int splat_most;
-    float splat_near;
+    float near;
     int map_size; /* enum ism_map_size */
     int pull_push;
     int pull; /* enum irb_ism_pull */

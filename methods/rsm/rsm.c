@@ -61,16 +61,16 @@ static const struct irb_option params[] = {
     IRB_OPTION_FLOAT(struct rsm_params, normal_offset, 0, 0, 1, "",
                      "shift of the lights against their normals, as a share of the scene's "
                      "diagonal, for edges that surfaces share",
-                     "Dachsbacher and Stamminger 2005, section 4; the unit: ours"),
+                     "Dachsbacher and Stamminger 2005, section 4; unit: ours"),
     IRB_OPTION_FLOAT(
         struct rsm_params, clamp, 0, 0, 1e12, "",
         "largest cos cos d^2/r^2 of a light and a pixel, d the diagonal of the scene's "
         "bounds; 0 = no clamp",
-        "thesis 3.2.1; the unit: ours"),
+        "thesis 3.2.1; unit: ours"),
     IRB_OPTION_ENUM(struct rsm_params, gather_scale, SCALE_AUTO, scales,
                     "gather for every n-th pixel, interpolate between, gather again where that "
                     "fails; auto = 4 for polar, which is the paper's whole method, else 1 (off)",
-                    "Dachsbacher and Stamminger 2005, section 4.2; the 4: ours"),
+                    "Dachsbacher and Stamminger 2005, section 4.2; value: ours"),
     IRB_OPTION_FLOAT(struct rsm_params, position_threshold, 0.05, 0, 10, "",
                      "farthest a sample may be from the pixel that it is interpolated for, as a "
                      "share of the scene's diagonal",

@@ -362,7 +362,7 @@ static bool count_clusters(const struct rsc_clusters *c, struct rsc_census *cens
         return irb_fail(err, IRB_E_MEMORY, "rsm-clustering: out of memory");
     bool ok = !c->count || irb_buffer_read(c->clusters, 0, (int64_t)bytes, clusters, err);
     for (int i = 0; ok && i < c->count; i++) {
-        census->active += clusters[i].texels > 0;
+        census->in_use += clusters[i].texels > 0;
         census->seeded += clusters[i].seeded > 0;
     }
     free(clusters);

@@ -98,7 +98,7 @@ void rsc_members_dispatch(const struct rsc_clusters *clusters, const struct irb_
 
 /* What a frame's clustering did. */
 struct rsc_census {
-    int active;       /* clusters with texels */
+    int in_use;       /* clusters with texels */
     int seeded;       /* clusters that were put on a new texel */
     int lit, lost;    /* texels with flux; those of them without a cluster within reach */
     double flux;      /* W, mean of the channels: of all texels */

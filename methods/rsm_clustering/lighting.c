@@ -18,16 +18,16 @@ void rsc_lighting_destroy(struct rsc_lighting *l)
     rsc_lighting_init(l, l->gl);
 }
 
-static bool prepare_interleave(struct rsc_lighting *l, int width, int height, int side,
+static bool prepare_interleave(struct rsc_lighting *l, int width, int height, int n, int m,
                                struct irb_error *err)
 {
     const struct irb_interleave *have = l->interleave;
-    const int columns = side < width ? side : width, rows = side < height ? side : height;
+    const int columns = n < width ? n : width, rows = m < height ? m : height;
     if (have && have->width == width && have->height == height && have->n == columns &&
         have->m == rows)
         return true;
     irb_interleave_destroy(l->interleave);
-    l->interleave = irb_interleave_create(l->gl, width, height, side, side, err);
+    l->interleave = irb_interleave_create(l->gl, width, height, n, m, err);
     return l->interleave != NULL;
 }
 
@@ -47,7 +47,7 @@ bool rsc_lighting_prepare(struct rsc_lighting *l, const struct irb_scene_gl *sce
                           const struct rsc_resolved *settings, int width, int height,
                           struct irb_error *err)
 {
-    if (!prepare_interleave(l, width, height, settings->interleave, err))
+    if (!prepare_interleave(l, width, height, settings->interleave_n, settings->interleave_m, err))
         return false;
     if (settings->is_clustered)
         return (l->vals || (l->vals = irb_vals_create(l->gl, err))) &&

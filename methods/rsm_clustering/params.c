@@ -18,7 +18,7 @@ static const char *const shapes[] = {"disc", "polygon", NULL};
 static const char *const corner_counts[] = {"8", "16", NULL};
 /* Up to `clustered` in the order of enum irb_shade_visibility. */
 enum { VISIBILITY_CLUSTERED = IRB_SHADE_PCSS + 1 };
-static const char *const visibilities[] = {"none", "binary", "pcss", "clustered", NULL};
+static const char *const visibilities[] = {"none", "ism", "pcss", "clustered", NULL};
 enum { LEAST_MAP = 64, MAP_256 = 2 };
 static const char *const map_sizes[] = {"64", "128", "256", "512", NULL};
 
@@ -82,20 +82,21 @@ const struct irb_option rsc_options[] = {
                     "corners of a polygon: its extreme texels in so many directions", "ours"),
     IRB_OPTION_ENUM(
         P, visibility, IRB_SHADE_NONE, visibilities,
-        "indirect shadows: none; from an imperfect shadow map a light: of its centre, or of its "
-        "disc by percentage-closer soft shadows; clustered: from one rasterised convolution soft "
-        "shadow map for each of few clusters of the lights (VALs), discs only",
+        "indirect shadows: none; from an imperfect shadow map a light: ism, one look-up, of the "
+        "light's centre; or pcss, of its disc by percentage-closer soft shadows; clustered: from "
+        "one rasterised convolution soft shadow map for each of few clusters of the lights (VALs), "
+        "discs only",
         "Prutkin et al. 2012: none; section 7 proposes both; Dong et al. 2009: clustered"),
-    IRB_OPTION_INT(P, points, 1000000, 1000, 16000000, "",
+    IRB_OPTION_INT(P, point_count, 1000000, 1000, 16000000, "",
                    "shadow maps: points on the scene's surfaces that they are splatted from",
                    "Ritschel et al. 2008; value: ours"),
-    IRB_OPTION_FLOAT(P, splat_factor, 4, 0.01, 64, "",
-                     "shadow maps: maps that each point is splatted into",
-                     "thesis 5.3.2; value: ours"),
-    IRB_OPTION_INT(P, splat_most, 16, 1, 128, "texels", "shadow maps: largest side of a splat",
-                   "ours"),
+    IRB_OPTION_FLOAT(
+        P, splat_factor, 4, 0.01, 64, "",
+        "s_f: maps that each point is splatted into; below 1, share of the points that are",
+        "thesis 5.3.2; value: ours"),
+    IRB_OPTION_INT(P, splat_most, 16, 1, 128, "texels", "largest side of a splat", "ours"),
     IRB_OPTION_INT(P, pull_push, 2, 0, 5, "levels",
-                   "shadow maps: levels of pull-push that fill holes; 0 = off",
+                   "j: levels of pull-push that fill holes of the shadow maps; 0 = off",
                    "Ritschel et al. 2008; value: ours"),
     IRB_OPTION_INT(P, taps, 16, 1, IRB_SHADOW_TAPS_MOST, "", "Poisson-disk taps of a soft shadow",
                    "thesis 5.3.3"),
@@ -103,38 +104,43 @@ const struct irb_option rsc_options[] = {
                    "taps of the search for blockers", "thesis 5.3.3; value: ours"),
     IRB_OPTION_FLOAT(P, bias, 0.01, 0, 0.99, "",
                      "share of the distance by which what shadows must be nearer", "ours"),
-    IRB_OPTION_FLOAT(P, slope, 2.5, 0, 16, "texels",
+    IRB_OPTION_FLOAT(P, slope, 2.5, 0, 64, "texels",
                      "the same for the slope of the receiver over so many texels of a shadow map",
                      "ours"),
     IRB_OPTION_FLOAT(P, offset, 1e-3, 0, 1, "",
                      "the same everywhere, as a share of the scene's diagonal", "ours"),
-    IRB_OPTION_INT(P, vals, 16, 1, IRB_VALS_MOST, "",
+    IRB_OPTION_INT(P, vals, IRB_VALS_DEFAULT_COUNT, 1, IRB_VALS_MOST, "",
                    "clustered: clusters of the lights, with a shadow map each",
                    "Dong et al. 2009; value: as clustered-visibility"),
-    IRB_OPTION_FLOAT(P, w_x, 1, 0, 1e6, "",
+    IRB_OPTION_FLOAT(P, w_x, IRB_VALS_DEFAULT_W_X, 0, 1e6, "",
                      "clustered: weight of the distance from light to VAL, in diagonals of the "
                      "scene at rest",
                      "thesis eq. 3.7; value: as clustered-visibility"),
-    IRB_OPTION_FLOAT(P, w_a, 0.5, 0, 1e6, "1/rad",
+    IRB_OPTION_FLOAT(P, w_a, IRB_VALS_DEFAULT_W_A, 0, 1e6, "1/rad",
                      "clustered: weight of the angle between their normals",
                      "thesis eq. 3.7; value: as clustered-visibility"),
     IRB_OPTION_ENUM(P, map_size, MAP_256, map_sizes,
                     "clustered: texels a side of a VAL's shadow map",
-                    "thesis 3.2.5; values: as clustered-visibility"),
-    IRB_OPTION_INT(P, order, 4, 1, IRB_CSM_ORDER_MOST, "",
+                    "thesis 3.2.5; value: as clustered-visibility"),
+    IRB_OPTION_INT(P, csm_order, IRB_CSM_DEFAULT_ORDER, 1, IRB_CSM_ORDER_MOST, "",
                    "clustered: M, order of the Fourier series of the shadow test",
-                   "thesis eq. 3.5; 4: as clustered-visibility"),
+                   "thesis eq. 3.5; value: as clustered-visibility"),
     IRB_OPTION_INT(
-        P, interleave, 1, 1, IRB_INTERLEAVE_MOST, "",
-        "n: each pixel is lit by every n^2-th light, and n x n pixels are averaged where "
-        "they agree; 1 = all lights for every pixel",
+        P, interleave_n, 1, 1, IRB_INTERLEAVE_MOST, "",
+        "n: tiles across of the interleaved shading: each pixel is lit by every nm-th light, and n "
+        "x m pixels are averaged where they agree; 1 x 1 = all lights for every pixel",
         "Prutkin et al. 2012: 1; thesis 5.1.4"),
-    IRB_OPTION_FLOAT(P, alpha, 0.02, 0, 10, "",
-                     "averaging: largest difference of two pixels' distances to the camera, as a "
-                     "share of the scene's diagonal",
+    IRB_OPTION_INT(P, interleave_m, 1, 1, IRB_INTERLEAVE_MOST, "",
+                   "m: tiles up of the interleaved shading",
+                   "Prutkin et al. 2012: 1; thesis 5.1.4"),
+    IRB_OPTION_FLOAT(P, filter_depth, 0.02, 0, 10, "",
+                     "alpha: largest difference of two pixels' distances to the camera that the "
+                     "filter averages, as a share of the scene's diagonal",
                      "thesis 5.3.3; value: ours"),
-    IRB_OPTION_FLOAT(P, beta, 0.9, -1, 1, "", "averaging: least cosine between two pixels' normals",
-                     "thesis 5.3.3; value: ours"),
+    IRB_OPTION_FLOAT(
+        P, filter_cosine, 0.9, -1, 1, "",
+        "beta: least cosine between the normals of two pixels that the filter averages",
+        "thesis 5.3.3; value: ours"),
     IRB_OPTION_END,
 };
 #undef P
@@ -176,10 +182,10 @@ static struct irb_vals_settings vals_of(const struct rsc_params *p, float diagon
         .vals = p->vals,
         .weight_distance = p->w_x / (diagonal > 0 ? diagonal : 1),
         .weight_angle = p->w_a,
-        .iterations = 64,
-        .start = IRB_VALS_RESTART,
-        .extent = IRB_VALS_EXTENT_MOMENT,
-        .centre = IRB_VALS_CENTRE_LIFTED,
+        .iterations = IRB_VALS_DEFAULT_ITERATIONS,
+        .start = IRB_VALS_DEFAULT_START,
+        .area = IRB_VALS_DEFAULT_AREA,
+        .centre = IRB_VALS_DEFAULT_CENTRE,
         .tiles = 1, /* clusters come in the Halton sequence's order */
     };
 }
@@ -189,12 +195,17 @@ static struct irb_val_lighting_settings val_lighting_of(const struct rsc_params 
     return (struct irb_val_lighting_settings){
         .visibility = true,
         .discs = true,
-        .projection = IRB_RASTER_PARABOLOID,
+        .projection = IRB_VALS_DEFAULT_PROJECTION,
         .size = LEAST_MAP << p->map_size,
-        .near = 1e-3f * diagonal,
-        .order = p->order,
-        .prefilter = IRB_CSM_MIP,
-        .csm = {.scale = 2, .search_offset = 0.613f, .search_scale = 1, .penumbra_scale = 1},
+        .near = (float)IRB_VALS_DEFAULT_NEAR * diagonal,
+        .order = p->csm_order,
+        .prefilter = IRB_CSM_DEFAULT_PREFILTER,
+        .csm = {.offset = IRB_CSM_DEFAULT_OFFSET,
+                .scale = IRB_CSM_DEFAULT_SCALE,
+                .search_offset = (float)IRB_CSM_DEFAULT_SEARCH_OFFSET,
+                .damping = IRB_CSM_DEFAULT_DAMPING,
+                .search_scale = IRB_CSM_DEFAULT_SEARCH_SCALE,
+                .penumbra_scale = IRB_CSM_DEFAULT_PENUMBRA_SCALE},
     };
 }
 
@@ -244,7 +255,7 @@ bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t see
         .clustering = clustering_of(p, diagonal, seed, frame),
         .area = (enum rsc_area)p->area,
         .corners = p->shape == SHAPE_POLYGON ? (p->corners ? 16 : 8) : 0,
-        .points = {.kind = IRB_POINTS_AREA, .count = p->points, .seed = seed},
+        .points = {.kind = IRB_POINTS_AREA, .count = p->point_count, .seed = seed},
         .ism = {.splatter = IRB_ISM_ATOMIC,
                 .splat_factor = p->splat_factor,
                 .splat_scale = 1,
@@ -257,9 +268,10 @@ bool rsc_params_resolve(const struct rsc_params *p, float diagonal, uint64_t see
         .is_clustered = p->visibility == VISIBILITY_CLUSTERED,
         .vals = vals_of(p, diagonal),
         .val_lighting = val_lighting_of(p, diagonal),
-        .interleave = p->interleave,
-        .depth = p->alpha * diagonal,
-        .cosine = p->beta,
+        .interleave_n = p->interleave_n,
+        .interleave_m = p->interleave_m,
+        .filter_depth = p->filter_depth * diagonal,
+        .filter_cosine = p->filter_cosine,
     };
     return true;
 }

@@ -20,16 +20,16 @@ struct rsc_params {
     float w_d, w_n, w_phi;
     int metric_unit, assignment, reach, reduction;
     int shape, area, corners;
-    int visibility, points;
+    int visibility, point_count;
     float splat_factor;
     int splat_most, pull_push;
     int taps, blocker_taps;
     float bias, slope, offset;
     int vals;
     float w_x, w_a;
-    int map_size, order;
-    int interleave;
-    float alpha, beta;
+    int map_size, csm_order;
+    int interleave_n, interleave_m;
+    float filter_depth, filter_cosine;
 };
 
 extern const struct irb_option rsc_options[];
@@ -45,8 +45,8 @@ struct rsc_resolved {
     bool is_clustered; /* shadows from the lights' VALs, whose settings follow */
     struct irb_vals_settings vals;
     struct irb_val_lighting_settings val_lighting;
-    int interleave;      /* tiles a side */
-    float depth, cosine; /* thresholds of the filter: m, 1 */
+    int interleave_n, interleave_m;    /* tiles across, up */
+    float filter_depth, filter_cosine; /* m, 1 */
 };
 
 /* diagonal: of the scene at rest, m, 0 for a scene without extent; seed: of the sequence; frame:

@@ -220,9 +220,9 @@ static bool light(struct rsc_state *s, const struct irb_frame_inputs *in,
     IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
     ok = ok && (r->is_clustered ? shade_clustered(s, in, r, err) : shade(s, in, r, err));
     IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(l->interleave, err));
-    IRB_STAGE(
-        ok, in, STAGE_FILTER,
-        irb_interleave_filter(l->interleave, in->gbuffer, r->depth, r->cosine, s->irradiance, err));
+    IRB_STAGE(ok, in, STAGE_FILTER,
+              irb_interleave_filter(l->interleave, in->gbuffer, r->filter_depth, r->filter_cosine,
+                                    s->irradiance, err));
     return ok;
 }
 
@@ -232,7 +232,7 @@ static bool report_vals(const struct rsc_state *s, struct irb_frame_output *out,
     struct irb_vals_statistics statistics;
     if (!irb_vals_statistics(s->lighting.vals, &statistics, err))
         return false;
-    irb_output_statistic(out, "vals", statistics.in_use);
+    irb_output_statistic(out, "vals_in_use", statistics.in_use);
     irb_output_statistic(out, "iterations", statistics.iterations);
     irb_output_statistic(out, "converged", statistics.converged);
     return true;
@@ -248,7 +248,7 @@ static bool report(struct rsc_state *s, const struct irb_frame_inputs *in,
         return false;
     out->uncovered_flux = census.flux > 0 ? census.lost_flux / census.flux : 0;
     irb_output_statistic(out, "clusters", r->clustering.clusters);
-    irb_output_statistic(out, "active", census.active);
+    irb_output_statistic(out, "clusters_in_use", census.in_use);
     irb_output_statistic(out, "seeded", census.seeded);
     irb_output_statistic(out, "lit_texels", census.lit);
     irb_output_statistic(out, "lost_texels", census.lost);
@@ -263,11 +263,11 @@ static bool draw_shadows(struct rsc_state *s, const struct rsc_resolved *r,
         return false;
     if (!irb_shadow_term_draw(s->shadow, s->irradiance, err))
         return false;
-    irb_output_layer(out, "shadow", s->shadow->image, IRB_DEBUG_SCALAR);
+    irb_output_layer(out, "shadow-term", s->shadow->image, IRB_DEBUG_SCALAR);
     const struct irb_texture *maps =
         r->is_clustered ? s->lighting.val_lighting.maps->distance : NULL;
     if (maps && maps->height * (int64_t)maps->layers <= TALLEST_LAYER)
-        irb_output_layer(out, "maps", maps, IRB_DEBUG_DISTANCE);
+        irb_output_layer(out, "csm-maps", maps, IRB_DEBUG_DISTANCE);
     return true;
 }
 

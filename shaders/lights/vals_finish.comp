@@ -12,7 +12,7 @@ layout(std430, binding = 2) readonly buffer Assignment { uint assignment[]; };
 layout(std430, binding = 5) buffer Means { vec4 means[]; }; /* position, 1; normal, 0 */
 
 uniform int vpl_count, val_count;
-uniform int extent; /* 0 second moment, 1 farthest VPL */
+uniform int area_kind; /* 0 second moment, 1 farthest VPL */
 uniform int stand;  /* of the map: 0 mean, 1 lifted, 2 the member nearest to the mean */
 
 const float PI = 3.14159265358979324;
@@ -39,7 +39,7 @@ void main()
             flux += vpls[VPL_VECTORS * l + 2].xyz;
             count += 1.0;
         }
-    float radius2 = extent == 0 ? 2.0 * moment / max(count, 1.0) : farthest;
+    float radius2 = area_kind == 0 ? 2.0 * moment / max(count, 1.0) : farthest;
     /* one VPL keeps its own area, whatever its mean is rounded to */
     area = count > 1.0 ? PI * radius2 : area;
     vals[VPL_VECTORS * v] = vec4(stand == 0 ? c : stand == 1 ? c + height * n : member, area);

@@ -82,7 +82,7 @@ static void test_bounce_1(void **state)
     /* without tiles, whose filter has few pixels to choose from in so small an image */
     static const char *const settings[TRIALS][7] = {
         [NONE] = {"visibility", "none", "interleave_n", "1", "interleave_m", "1"},
-        [SHARP] = {"visibility", "binary", "interleave_n", "1", "interleave_m", "1"},
+        [SHARP] = {"visibility", "ism", "interleave_n", "1", "interleave_m", "1"},
         [SOFT] = {"visibility", "pcss", "interleave_n", "1", "interleave_m", "1"},
         [MANY] = {"clusters", "512", "interleave_n", "1", "interleave_m", "1"},
     };

@@ -162,7 +162,7 @@ static void check_records(const struct run *r, const struct plain *p)
         if (!p->members[v])
             continue;
         double radius2 =
-            r->settings.extent == IRB_VALS_EXTENT_MAX ? farthest : 2 * moment / p->members[v];
+            r->settings.area == IRB_VALS_AREA_MAX ? farthest : 2 * moment / p->members[v];
         REQUIRE_NEAR(r->vals[v].area, M_PI * radius2, 1e-5 * radius2 + 1e-9);
         for (int i = 0; i < 3; i++) {
             REQUIRE_NEAR(r->vals[v].position[i], p->centre[v][i], 1e-5);
@@ -179,13 +179,13 @@ static void test_against_double(void **state)
         int vpls, vals;
     } cases[] = {{1, 1}, {100, 1}, {100, 7}, {512, 16}, {3, 16}, {2048, 32}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
-        for (int extent = 0; extent < 2; extent++) {
+        for (int area = 0; area < 2; area++) {
             static struct run r;
             static struct plain p;
             fill_room(&r, cases[k].vpls, 10 + k, 0);
             r.settings = usual;
             r.settings.vals = cases[k].vals;
-            r.settings.extent = (enum irb_vals_extent)extent;
+            r.settings.area = (enum irb_vals_area)area;
             run_fresh(&r);
             plain_k_means(&r, &p);
             int differ = 0, in_use = 0;
@@ -193,7 +193,7 @@ static void test_against_double(void **state)
                 differ += (int)r.assignment[l] != p.of[l];
             for (int v = 0; v < r.settings.vals; v++)
                 in_use += p.members[v] > 0;
-            if (!extent)
+            if (!area)
                 print_message("%4d VPLs, %2d VALs: %d in use, %d iterations, %d differ\n", r.count,
                               r.settings.vals, r.statistics.in_use, r.statistics.iterations,
                               differ);
@@ -485,7 +485,7 @@ static void test_areas(void **state)
     r.count = 2;
     run_fresh(&r);
     REQUIRE_REL(r.vals[0].area, 2 * M_PI * a * a + area, 1e-5);
-    r.settings.extent = IRB_VALS_EXTENT_MAX;
+    r.settings.area = IRB_VALS_AREA_MAX;
     run_fresh(&r);
     REQUIRE_REL(r.vals[0].area, M_PI * pow(a + sqrt(area / M_PI), 2), 1e-5);
 }

@@ -95,9 +95,9 @@ static void bench(struct bench *b, int k, int square, int neighbours, int frames
     }
     struct acrsm_report report;
     REQUIRE_OK(acrsm_clusters_report(b->clusters, b->f.rsm, &report, &err));
-    printf("   %d in use, uncovered %.4f, spread %.3f, merged %d split %d reseeded %d\n",
+    printf("   %d in use, uncovered %.4f, spread %.3f, merged %d split %d seeded %d\n",
            report.in_use, report.uncovered, report.spread, report.merged, report.split,
-           report.reseeded);
+           report.seeded);
 }
 
 int main(int argc, char **argv)

@@ -153,7 +153,7 @@ static void test_sphere(void **state)
     }
     REQUIRE_REL(sum / (double)irb_image_pixels(&e), 0.5 * power[0] / (4 * M_PI), 0.03);
     REQUIRE_NEAR(out.uncovered_flux, 0, 0);
-    REQUIRE_NEAR(statistic(&out, "clusters"), 512, 8);
+    REQUIRE_NEAR(statistic(&out, "clusters_in_use"), 512, 8);
     irb_image_destroy(&e);
     fixture_frame_destroy(&f);
 }
@@ -234,7 +234,7 @@ static void test_shadows(void **state)
     (void)state;
     static const char *const kinds[][10] = {
         {"visibility", "none"},
-        {"visibility", "binary"},
+        {"visibility", "ism"},
         {"visibility", "pcss"},
         {"visibility", "pcss", "splatter", "raster"},
         {"visibility", "pcss", "points", "dynamic"},
@@ -258,7 +258,7 @@ static void test_shadows(void **state)
             REQUIRE_CMP(shadow, >, 0.03);
             REQUIRE_CMP(shadow, <, 0.6);
             REQUIRE_CMP(means[k], <, 0.95 * means[0]);
-            REQUIRE_CMP(statistic(&out, "ism_coverage"), >, 0.1);
+            REQUIRE_CMP(statistic(&out, "coverage"), >, 0.1);
         }
         irb_image_destroy(&e);
     }
@@ -280,7 +280,7 @@ static void test_changes(void **state)
         {"points", "static", "f_min", "3", "f_max", "8"},
         {"clusters", "512", "pull_push", "2", "flux", "center-area"},
         {"adaptive", "false", "reseed", "false", "cover", "nearest"},
-        {"clusters", "128", "space", "world", "w_v", "0.5"},
+        {"clusters", "128", "space", "world", "view_weight", "0.5"},
     };
     struct irb_error err = {0};
     struct fixture_frame f, fine;
@@ -300,7 +300,7 @@ static void test_changes(void **state)
         require_finite(&e);
         assert_int_equal(e.width, frame->gbuffer->width);
         REQUIRE_CMP(mean_of(&e), >, 0);
-        REQUIRE_CMP(statistic(&out, "clusters"), >=,
+        REQUIRE_CMP(statistic(&out, "clusters_in_use"), >=,
                     0.9 * ((struct acrsm_params *)params)->clusters);
         irb_image_destroy(&e);
     }
@@ -327,7 +327,7 @@ static void test_dark(void **state)
         struct irb_image e = render(&f, NULL, &out);
         for (size_t i = 0; i < 4 * irb_image_pixels(&e); i++)
             REQUIRE_NEAR(e.data[i], 0, 0);
-        REQUIRE_NEAR(statistic(&out, "clusters"), 0, 0);
+        REQUIRE_NEAR(statistic(&out, "clusters_in_use"), 0, 0);
         REQUIRE_NEAR(out.uncovered_flux, 0, 0);
         irb_image_destroy(&e);
         fixture_frame_destroy(&f);

@@ -218,7 +218,7 @@ static void test_no_reseed(void **state)
             acrsm_fixture_rsm(&a, &light);
             acrsm_fixture_frame(&a);
             struct acrsm_report report = acrsm_fixture_report(&a);
-            REQUIRE_NEAR(report.merged + report.split + report.reseeded, 0, 0);
+            REQUIRE_NEAR(report.merged + report.split + report.seeded, 0, 0);
         }
         acrsm_fixture_state(&a, found[adaptive]);
         acrsm_fixture_destroy(&a);

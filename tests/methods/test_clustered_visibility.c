@@ -109,10 +109,10 @@ static void test_unshadowed(void **state)
     const char *const counts[] = {"1", "100", "512", "2048"};
     for (int k = 0; k < 4; k++) {
         const char *const rsm[] = {"mode", "importance", "samples", counts[k], NULL};
-        const char *const one[] = {"visibility", "none",    "interleave", "1",
-                                   "vpls",       counts[k], NULL};
-        const char *const many[] = {"visibility", "none",    "interleave", "3",
-                                    "vpls",       counts[k], NULL};
+        const char *const one[] = {"visibility", "none", "interleave_n", "1", "interleave_m",
+                                   "1",          "vpls", counts[k],      NULL};
+        const char *const many[] = {"visibility", "none", "interleave_n", "3", "interleave_m",
+                                    "3",          "vpls", counts[k],      NULL};
         struct irb_image expected = render(&irb_method_rsm, &f, rsm, &out);
         struct irb_image found = render(cv, &f, one, &out);
         for (size_t i = 0; i < irb_image_pixels(&found); i++)
@@ -239,18 +239,37 @@ static void test_against_rays(void **state)
     make_hall_frame(&f);
     struct vpl *vpls = draw_vpls(&f, VPLS);
     struct irb_image truth = trace(&f, vpls, VPLS);
-    const char *const none[] = {"visibility", "none", "interleave", "1", "vpls", "128", NULL};
+    const char *const none[] = {"visibility", "none", "interleave_n", "1", "interleave_m",
+                                "1",          "vpls", "128",          NULL};
     struct irb_image lit = render(cv, &f, none, &out);
     const double unshadowed = mean_difference(&lit, &truth);
     print_message("no shadows: %.4f\n", unshadowed);
     REQUIRE_CMP(unshadowed, >, 1);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const struct shadow_case *c = &cases[k];
-        const char *const settings[] = {
-            "interleave", "1",           "vpls",      "128",        "map_size",     "128",
-            "vals",       c->vals,       "order",     c->order,     "offset",       c->offset,
-            "scale",      c->scale,      "prefilter", c->prefilter, "search_scale", c->search_scale,
-            "projection", c->projection, NULL};
+        const char *const settings[] = {"interleave_n",
+                                        "1",
+                                        "interleave_m",
+                                        "1",
+                                        "vpls",
+                                        "128",
+                                        "map_size",
+                                        "128",
+                                        "vals",
+                                        c->vals,
+                                        "csm_order",
+                                        c->order,
+                                        "csm_offset",
+                                        c->offset,
+                                        "csm_scale",
+                                        c->scale,
+                                        "csm_prefilter",
+                                        c->prefilter,
+                                        "search_scale",
+                                        c->search_scale,
+                                        "projection",
+                                        c->projection,
+                                        NULL};
         struct irb_image found = render(cv, &f, settings, &out);
         const double error = mean_difference(&found, &truth);
         print_message("%-17s %.4f, energy %.3f\n", c->name, error,
@@ -280,17 +299,17 @@ static void test_changing_frames(void **state)
     void *method = cv->create(gl, f.scene_gl, 7, 5, params, &err);
     REQUIRE_OK(method);
     REQUIRE_OK(cv->resize(method, 20, 15, &err));
-    static const char *const frames[][8] = {
+    static const char *const frames[][10] = {
         {"vpls", "100"},
-        {"vpls", "1", "prefilter", "sat"},
+        {"vpls", "1", "csm_prefilter", "sat"},
         {"vpls", "2048"},
         {"vals", "1", "vpls", "40"},
         {"vals", "128"},
         {"projection", "hemicube", "vals", "7"},
         {"dark"},
-        {"order", "3", "prefilter", "mip", "clamp", "5"},
-        {"interleave", "1"},
-        {"interleave", "8", "extent", "max", "centre", "member"},
+        {"csm_order", "3", "csm_prefilter", "mip", "clamp", "5"},
+        {"interleave_n", "1", "interleave_m", "1"},
+        {"interleave_n", "8", "interleave_m", "8", "area", "max", "centre", "member"},
         {"visibility", "none"},
         {"visibility", "clustered", "clamp", "0"}};
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
@@ -345,7 +364,7 @@ static void test_history(void **state)
         if (frame == 3)
             REQUIRE_OK(cv->begin_sequence(method, params, 0, &err));
         REQUIRE_OK(cv->render_frame(method, &inputs, &out, &err));
-        in_use[frame] = statistic(&out, "vals");
+        in_use[frame] = statistic(&out, "vals_in_use");
         iterations[frame] = statistic(&out, "iterations");
         REQUIRE_NEAR(statistic(&out, "converged"), 1, 0);
     }

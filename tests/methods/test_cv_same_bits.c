@@ -38,7 +38,7 @@ static void render(enum irb_backend backend, const char *threads, struct irb_ima
                                                 .rsm = f.rsm,
                                                 .params = params};
         REQUIRE_OK(irb_option_set(cv->params, params, "map_size", "64", &err));
-        REQUIRE_OK(irb_option_set(cv->params, params, "prefilter", prefilters[v], &err));
+        REQUIRE_OK(irb_option_set(cv->params, params, "csm_prefilter", prefilters[v], &err));
         REQUIRE_OK(irb_option_set(cv->params, params, "projection", projections[v], &err));
         void *state = cv->create(gl, f.scene_gl, 31, 23, params, &err);
         REQUIRE_OK(state);

@@ -425,11 +425,11 @@ static void test_coverage(void **state)
         const char *const settings[] = {"vpls", "64", "point_count", counts[k], NULL};
         struct irb_image e = render(&f, settings, &out);
         print_message("%s points: coverage %.3f, %.3f after pull-push\n", counts[k],
-                      statistic(&out, "coverage-splatted"), statistic(&out, "coverage"));
-        REQUIRE_CMP(statistic(&out, "coverage-splatted"), >, before);
-        REQUIRE_CMP(statistic(&out, "coverage"), >=, statistic(&out, "coverage-splatted"));
+                      statistic(&out, "coverage_splatted"), statistic(&out, "coverage"));
+        REQUIRE_CMP(statistic(&out, "coverage_splatted"), >, before);
+        REQUIRE_CMP(statistic(&out, "coverage"), >=, statistic(&out, "coverage_splatted"));
         REQUIRE_CMP(statistic(&out, "coverage"), >, after);
-        before = statistic(&out, "coverage-splatted");
+        before = statistic(&out, "coverage_splatted");
         after = statistic(&out, "coverage");
         for (size_t i = 0; i < 4 * irb_image_pixels(&e); i++)
             if (i % 4 != 3)

@@ -243,14 +243,16 @@ static void test_changing_frames(void **state)
     } frames[] = {
         {{"visibility", "clustered", NULL}, 1},
         {{"visibility", "clustered", NULL}, 0},
-        {{"visibility", "clustered", "vals", "128", "map_size", "64", "order", "1", NULL}, 0},
+        {{"visibility", "clustered", "vals", "128", "map_size", "64", "csm_order", "1", NULL}, 0},
         {{"visibility", "none", NULL}, 0},
         {{"visibility", "clustered", "vals", "3", "clusters", "2", NULL}, 0},
-        {{"visibility", "clustered", "interleave", "3", "clusters", "7", NULL}, 0},
-        {{"visibility", "pcss", "clusters", "20", "points", "10000", NULL}, 0},
+        {{"visibility", "clustered", "interleave_n", "3", "interleave_m", "3", "clusters", "7",
+          NULL},
+         0},
+        {{"visibility", "pcss", "clusters", "20", "point_count", "10000", NULL}, 0},
         {{"visibility", "clustered", "w_x", "0", "w_a", "0", NULL}, 0},
         {{"visibility", "clustered", "clusters", "2048", NULL}, 1},
-        {{"visibility", "clustered", "order", "16", "map_size", "128", NULL}, 0},
+        {{"visibility", "clustered", "csm_order", "16", "map_size", "128", NULL}, 0},
     };
     struct fixture_frame f;
     struct trial t;
@@ -264,7 +266,7 @@ static void test_changing_frames(void **state)
             f.light.intensity[c] = 0;
         fixture_frame_render(&f);
         struct irb_image e = next_frame(&t);
-        const double vals = statistic(&t.out, "vals");
+        const double vals = statistic(&t.out, "vals_in_use");
         if (frames[i].dark)
             REQUIRE_NEAR(fixture_sum(&e, 1), 0, 0);
         else
@@ -287,7 +289,8 @@ static void test_tiles(void **state)
     make_hall(&f, 1.2);
     struct irb_image one = render(&f, (const char *const[]){"visibility", "clustered", NULL});
     struct irb_image tiles =
-        render(&f, (const char *const[]){"visibility", "clustered", "interleave", "3", NULL});
+        render(&f, (const char *const[]){"visibility", "clustered", "interleave_n", "3",
+                                         "interleave_m", "3", NULL});
     print_message("tiles: %.4f of the light\n", fixture_sum(&tiles, 1) / fixture_sum(&one, 1));
     REQUIRE_REL(fixture_sum(&tiles, 1), fixture_sum(&one, 1), 0.02);
     irb_image_destroy(&one);

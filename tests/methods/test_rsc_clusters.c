@@ -348,7 +348,7 @@ static void test_history(void **state)
         empty = 0;
         for (int k = 0; k < r.k; k++)
             empty += r.after[k].texels == 0;
-        REQUIRE_NEAR(n.active, r.k - empty, 0);
+        REQUIRE_NEAR(n.in_use, r.k - empty, 0);
         REQUIRE_REL(n.flux,
                     (fixture_sum(&r.flux, 0) + fixture_sum(&r.flux, 1) + fixture_sum(&r.flux, 2)) /
                         3,
@@ -370,7 +370,7 @@ static void test_history(void **state)
     REQUIRE_OK(irb_rsm_render(f.rsm, f.scene_gl, &f.light, &err));
     r = cluster(c, &f, &s);
     REQUIRE_CMP(census(c, f.rsm).seeded, >, 200);
-    REQUIRE_CMP(census(c, f.rsm).active, >, 50);
+    REQUIRE_CMP(census(c, f.rsm).in_use, >, 50);
     check_means(&r, &f);
     frame_destroy(&r);
     rsc_clusters_destroy(c);
@@ -437,8 +437,8 @@ static void test_few_texels(void **state)
                         assert_true(isfinite(values[v]));
                     check_means(&r, &f);
                     REQUIRE_NEAR(n.lit > 0, kind > 0, 0);
-                    REQUIRE_NEAR(n.active > 0, kind > 0, 0);
-                    REQUIRE_CMP(n.active, <=, n.lit);
+                    REQUIRE_NEAR(n.in_use > 0, kind > 0, 0);
+                    REQUIRE_CMP(n.in_use, <=, n.lit);
                     if (kind == 1)
                         REQUIRE_NEAR(n.lost, 0, 0);
                     frame_destroy(&r);

@@ -11,21 +11,21 @@ static const struct irb_method *const method = &irb_method_rsm_clustering;
 
 enum { TRIALS = 4, FRAMES = 3, WIDTH = 31, HEIGHT = 23, RESOLUTION = 64, COLOURED = 6 };
 
-static const char *const trials[TRIALS][6] = {
+static const char *const trials[TRIALS][8] = {
     {"clusters", "200", "area", "moment"},
     {"clusters", "100", "shape", "polygon", "reduction", "window"},
-    {"clusters", "60", "visibility", "pcss", "points", "20000"},
-    {"clusters", "90", "visibility", "clustered", "interleave", "2"},
+    {"clusters", "60", "visibility", "pcss", "point_count", "20000"},
+    {"clusters", "90", "visibility", "clustered", "interleave_n", "2", "interleave_m", "2"},
 };
 
 static struct irb_image run(struct irb_gl *gl, const struct fixture_frame *f,
-                            const char *const settings[6])
+                            const char *const settings[8])
 {
     struct irb_error err = {0};
     struct irb_frame_output out;
     void *params = calloc(1, method->params_size);
     irb_options_default(method->params, params);
-    for (int i = 0; i < 6 && settings[i]; i += 2)
+    for (int i = 0; i < 8 && settings[i]; i += 2)
         REQUIRE_OK(irb_option_set(method->params, params, settings[i], settings[i + 1], &err));
     void *state = method->create(gl, f->scene_gl, WIDTH, HEIGHT, params, &err);
     REQUIRE_OK(state);

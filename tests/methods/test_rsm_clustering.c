@@ -345,7 +345,7 @@ static void test_history(void **state)
     for (int i = 0; i < 8; i++)
         images[i] = next_frame(&t);
     REQUIRE_NEAR(statistic(&t.out, "clusters"), 150, 0);
-    REQUIRE_CMP(statistic(&t.out, "active"), >, 100);
+    REQUIRE_CMP(statistic(&t.out, "clusters_in_use"), >, 100);
     REQUIRE_CMP(difference(&images[7], &images[6]), <, difference(&images[1], &images[0]));
     struct irb_error err = {0};
     REQUIRE_OK(method->begin_sequence(t.state, t.params, 1, &err));
@@ -373,7 +373,7 @@ static void test_odd_frames(void **state)
     const struct irb_light lamp = f.light;
     const struct irb_camera camera = f.camera;
     static const struct {
-        const char *settings[7];
+        const char *settings[9];
         int dark, turned, away;
     } frames[] = {
         {{"clusters", "300", NULL}, 0, 0, 0},
@@ -382,7 +382,10 @@ static void test_odd_frames(void **state)
         {{"clusters", "1", "shape", "polygon", "corners", "16", NULL}, 0, 1, 0},
         {{"clusters", "5000", "assignment", "brute", "reseed", "next", NULL}, 0, 1, 1},
         {{"clusters", "2000", "reduction", "window", "metric_unit", "bbox", NULL}, 0, 0, 1},
-        {{"clusters", "7", "reduction", "direct", "interleave", "3", NULL}, 0, 0, 0},
+        {{"clusters", "7", "reduction", "direct", "interleave_n", "3", "interleave_m", "3", NULL},
+         0,
+         0,
+         0},
         {{"clusters", "7", "reach", "0", "view_weight", "0", NULL}, 0, 0, 0},
     };
     struct trial t;
@@ -403,10 +406,10 @@ static void test_odd_frames(void **state)
         struct irb_image e = next_frame(&t);
         if (frames[i].dark) {
             REQUIRE_NEAR(total(&e), 0, 0);
-            REQUIRE_NEAR(statistic(&t.out, "active"), 0, 0);
+            REQUIRE_NEAR(statistic(&t.out, "clusters_in_use"), 0, 0);
             REQUIRE_NEAR(t.out.uncovered_flux, 0, 0);
         } else {
-            REQUIRE_CMP(statistic(&t.out, "active"), >, 0);
+            REQUIRE_CMP(statistic(&t.out, "clusters_in_use"), >, 0);
             REQUIRE_NEAR(total(&e) > 0, !frames[i].away, 0);
         }
         irb_image_destroy(&e);
@@ -439,17 +442,17 @@ static void test_intensity(void **state)
 static void test_visibility(void **state)
 {
     (void)state;
-    const char *const shapes[] = {"disc", "polygon"}, *const kinds[] = {"none", "binary", "pcss"};
+    const char *const shapes[] = {"disc", "polygon"}, *const kinds[] = {"none", "ism", "pcss"};
     struct fixture_frame f;
     make_frame(&f, "cornell", 40, 30, 96);
     for (int shape = 0; shape < 2; shape++) {
         struct irb_image images[3];
         for (int kind = 0; kind < 3; kind++)
-            images[kind] =
-                render(&f,
-                       (const char *const[]){"clusters", "128", "shape", shapes[shape],
-                                             "visibility", kinds[kind], "points", "100000", NULL},
-                       2);
+            images[kind] = render(&f,
+                                  (const char *const[]){"clusters", "128", "shape", shapes[shape],
+                                                        "visibility", kinds[kind], "point_count",
+                                                        "100000", NULL},
+                                  2);
         for (int kind = 1; kind < 3; kind++) {
             for (size_t i = 0; i < irb_image_pixels(&images[0]); i++)
                 for (size_t c = 0; c < 3; c++)

@@ -30,5 +30,5 @@ void main()
                 vanished++;
         }
     next_seed = next;
-    reseeded = vanished;
+    seeded = vanished;
 }
