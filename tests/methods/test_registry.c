@@ -142,7 +142,7 @@ static void test_what_follows_from_parameters(void **state)
         bool visibility, history;
     } cases[] = {
         {"acrsm", NULL, NULL, true, true},
-        {"acrsm", "visibility", "binary", true, true},
+        {"acrsm", "visibility", "ism", true, true},
         {"acrsm", "visibility", "none", false, true},
         {"clustered-visibility", NULL, NULL, true, false},
         {"clustered-visibility", "start", "reuse", true, true},
@@ -152,7 +152,7 @@ static void test_what_follows_from_parameters(void **state)
         {"ism", "visibility", "none", false, false},
         {"rsm", NULL, NULL, false, false},
         {"rsm-clustering", NULL, NULL, false, true},
-        {"rsm-clustering", "visibility", "binary", true, true},
+        {"rsm-clustering", "visibility", "ism", true, true},
         {"rsm-clustering", "visibility", "pcss", true, true},
     };
     struct irb_registry registry;
