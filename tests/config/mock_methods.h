@@ -3,8 +3,8 @@
  * Two methods without code: what a config needs to know of a method is its name and parameters, and
  * what follows from these.
  */
-#ifndef IRB_TESTS_EXPERIMENT_MOCK_METHODS_H
-#define IRB_TESTS_EXPERIMENT_MOCK_METHODS_H
+#ifndef IRB_TESTS_CONFIG_MOCK_METHODS_H
+#define IRB_TESTS_CONFIG_MOCK_METHODS_H
 
 #include "methods/registry.h"
 

@@ -7,7 +7,7 @@
 #include "core/config/config.h"
 #include "tests/support/compare.h"
 
-#include "tests/experiment/mock_methods.h"
+#include "tests/config/mock_methods.h"
 
 #include <stdio.h>
 #include <stdlib.h>

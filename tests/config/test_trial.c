@@ -2,7 +2,7 @@
 #include "core/config/config.h"
 #include "tests/support/compare.h"
 
-#include "tests/experiment/mock_methods.h"
+#include "tests/config/mock_methods.h"
 
 #include <stdlib.h>
 #include <string.h>
