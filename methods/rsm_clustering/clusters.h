@@ -8,8 +8,8 @@
 #ifndef IRB_METHODS_RSM_CLUSTERING_CLUSTERS_H
 #define IRB_METHODS_RSM_CLUSTERING_CLUSTERS_H
 
+#include "core/gl/sort.h"
 #include "core/lights/pyramid.h"
-#include "core/lights/sort.h"
 
 #include <stdint.h>
 

@@ -5,7 +5,7 @@
  */
 layout(local_size_x = 64) in;
 #include "frame/gbuffer_fetch.glsl"
-#include "lights/halton.glsl"
+#include "sampling/halton.glsl"
 
 layout(std430, binding = 0) buffer State { uint largest_bits; uint valid_samples; };
 /* position (m); 0 | unit normal; 0 */

@@ -5,7 +5,7 @@
  * irb_vpl_sampling; the last two differ in what the pyramid was built from.
  */
 #include "frame/rsm_fetch.glsl"
-#include "lights/halton.glsl"
+#include "sampling/halton.glsl"
 
 uniform int resolution;  /* texels a side of the RSM */
 uniform uint candidates; /* N; all: resolution^2 */

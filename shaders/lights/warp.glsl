@@ -8,7 +8,7 @@
  * with 0; each further level sums 2 x 2 of the one before; levels lie one after the other, the
  * single total at the end.
  */
-#include "lights/halton.glsl"
+#include "sampling/halton.glsl"
 
 layout(std430, binding = 2) readonly buffer Pyramid { float pyramid[]; };
 uniform int pyramid_levels;     /* log2(side) + 1 */

@@ -11,7 +11,7 @@
  */
 #include "methods/acrsm/cluster.glsl"
 #include "methods/acrsm/evaluation.glsl"
-#include "methods/acrsm/hash.glsl"
+#include "sampling/hash.glsl"
 
 #define GROUP 64
 layout(local_size_x = GROUP) in;

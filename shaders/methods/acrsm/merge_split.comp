@@ -10,8 +10,8 @@ layout(local_size_x = 1) in;
 #include "frame/rsm_fetch.glsl"
 #include "methods/acrsm/cluster.glsl"
 #include "methods/acrsm/evaluation.glsl"
-#include "methods/acrsm/hash.glsl"
 #include "methods/acrsm/lists.glsl"
+#include "sampling/hash.glsl"
 
 layout(std430, binding = 0) buffer Clusters { cluster clusters[CLUSTERS_MOST]; };
 layout(std430, binding = 1) readonly buffer Evaluation {

@@ -6,10 +6,10 @@
 layout(local_size_x = 64) in;
 
 #include "frame/rsm_fetch.glsl"
-#include "lights/halton.glsl"
 #include "lights/warp.glsl"
 #include "methods/acrsm/cluster.glsl"
 #include "methods/acrsm/lists.glsl"
+#include "sampling/halton.glsl"
 
 layout(std430, binding = 0) buffer Clusters { cluster clusters[CLUSTERS_MOST]; };
 

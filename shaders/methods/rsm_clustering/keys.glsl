@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Sorted keys (core/lights/sort.h): what is sorted by in the high bits, who it is in the low ones;
+ * Sorted keys (core/gl/sort.h): what is sorted by in the high bits, who it is in the low ones;
  * NO_KEY, which comes last, where there is nothing.
  */
 layout(std430, binding = 1) buffer Keys { uint keys[]; };

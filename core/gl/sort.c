@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/lights/sort.h"
+#include "core/gl/sort.h"
 
 #include <stdlib.h>
 
 /* Keys that one work group sorts in shared memory (16 KiB), and its size, in
- * shaders/lights/bitonic.comp. */
+ * shaders/gl/sort.comp. */
 enum { BLOCK = 4096, GROUP = 256, KEYS_BINDING = 0 };
 
 static struct irb_program *create_pass(struct irb_gl *gl, const char *name, const char *define,
@@ -12,11 +12,9 @@ static struct irb_program *create_pass(struct irb_gl *gl, const char *name, cons
 {
     const char *const defines[] = {define, "BITONIC_BLOCK 4096", NULL};
     _Static_assert(BLOCK == 4096, "the define above");
-    return irb_program_create(gl,
-                              &(struct irb_program_desc){.name = name,
-                                                         .compute = "lights/bitonic.comp",
-                                                         .defines = defines},
-                              err);
+    return irb_program_create(
+        gl, &(struct irb_program_desc){.name = name, .compute = "gl/sort.comp", .defines = defines},
+        err);
 }
 
 struct irb_sort *irb_sort_create(struct irb_gl *gl, struct irb_error *err)

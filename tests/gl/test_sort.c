@@ -2,8 +2,8 @@
  *
  * The bitonic sort against the C library's.
  */
+#include "core/gl/sort.h"
 #include "tests/support/compare.h"
-#include "core/lights/sort.h"
 #include "tests/gl/fixture.h"
 
 static struct irb_gl *gl;

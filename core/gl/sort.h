@@ -4,8 +4,8 @@
  * Prutkin et al. 2012 does with cluster numbers. Payload goes into a key's low bits; keys that
  * differ make the order unique. Same input, same bits.
  */
-#ifndef IRB_LIGHTS_SORT_H
-#define IRB_LIGHTS_SORT_H
+#ifndef IRB_GL_SORT_H
+#define IRB_GL_SORT_H
 
 #include "core/gl/objects.h"
 #include "core/gl/program.h"
