@@ -226,6 +226,18 @@ const char *irb_rsm_define(enum irb_layout layout)
     return layout == IRB_LAYOUT_SLIM ? "RSM_SLIM 1" : "RSM_SLIM 0";
 }
 
+float irb_rsm_largest_flux(const struct irb_rsm *rsm)
+{
+    return fmaxf(rsm->flux_scale[0], fmaxf(rsm->flux_scale[1], rsm->flux_scale[2]));
+}
+
+float irb_rsm_flux_unit(const struct irb_rsm *rsm)
+{
+    const float least = 1e-37f; /* W: below it the inverse is not a float */
+    const float largest = irb_rsm_largest_flux(rsm);
+    return largest > least ? 1 / largest : 1;
+}
+
 static void set_fetch_uniforms(const struct irb_rsm *rsm, const struct irb_program *program)
 {
     const float spread[2] = {!rsm->directional, rsm->directional};

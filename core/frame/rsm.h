@@ -53,6 +53,12 @@ void irb_rsm_destroy(struct irb_rsm *rsm);
 /* Memory of a texel, bytes, its depth included: 68 full, 16 slim. */
 int irb_rsm_texel_bytes(const struct irb_rsm *rsm);
 
+/* The largest of flux_scale, W. */
+float irb_rsm_largest_flux(const struct irb_rsm *rsm);
+/* Its inverse, 1/W, which brings fluxes to order 1 whatever the light's power; 1 for a dark light.
+ */
+float irb_rsm_flux_unit(const struct irb_rsm *rsm);
+
 /* The define that a shader which includes frame/rsm_fetch.glsl is compiled with. */
 const char *irb_rsm_define(enum irb_layout layout);
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/clustered_visibility/pictures.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 enum { GROUP = 8, ORDERED_BINDING = 4 };
@@ -88,12 +87,11 @@ static bool draw_vals(struct cv_pictures *p, const struct irb_rsm *rsm, const st
                                             .vertex = "methods/clustered_visibility/show_vpls.vert",
                                             .fragment =
                                                 "methods/clustered_visibility/show_vpls.frag"};
-    const float most = fmaxf(rsm->flux_scale[0], fmaxf(rsm->flux_scale[1], rsm->flux_scale[2]));
     const struct irb_program *program = use(p->gl, &p->surfaces[rsm->layout], &surfaces, err);
     if (!program)
         return false;
     irb_rsm_bind(rsm, program, 0);
-    irb_program_float(program, "flux_unit", most > 1e-37f ? 1 / most : 1);
+    irb_program_float(program, "flux_unit", irb_rsm_flux_unit(rsm));
     dispatch(p, p->vals);
     if (!(program = use(p->gl, &p->points, &points, err)))
         return false;

@@ -14,7 +14,7 @@ const char *const rsm_fetch_names[] = {"packed", "full", NULL};
 enum { TILE = 2, PACK_GROUP = 8 };
 /* PACKED_FLUX_STEPS of shaders/methods/rsm/packed.glsl. */
 static const float flux_steps = 1024;
-/* Below it a light is dark: the inverse of its flux would leave a float's range. W. */
+/* Below it a light is dark: flux_steps over its flux would leave a float's range. W. */
 static const float least_flux = 1e-30f;
 
 struct rsm_polar *rsm_polar_create(struct irb_gl *gl, struct irb_error *err)
@@ -92,12 +92,6 @@ static bool make_pattern(struct rsm_polar *polar, const struct rsm_pattern *patt
     return polar->samples != NULL;
 }
 
-/* The largest flux of a texel of albedo 1, W. */
-static float largest_flux(const struct irb_rsm *rsm)
-{
-    return fmaxf(rsm->flux_scale[0], fmaxf(rsm->flux_scale[1], rsm->flux_scale[2]));
-}
-
 static bool make_packed_texture(struct rsm_polar *polar, int side, struct irb_error *err)
 {
     if (polar->packed && polar->packed->width == side)
@@ -117,7 +111,7 @@ static bool pack(struct rsm_polar *polar, const struct irb_rsm *rsm, struct irb_
     struct irb_program **program = &polar->pack[rsm->layout];
     const int side = rsm->resolution + 2;
     const unsigned groups = (unsigned)(side + PACK_GROUP - 1) / PACK_GROUP;
-    const float largest = largest_flux(rsm);
+    const float largest = irb_rsm_largest_flux(rsm);
 
     if (!*program) {
         const char *const defines[] = {irb_rsm_define(rsm->layout), NULL};
@@ -160,7 +154,7 @@ static const struct irb_program *bind(struct rsm_polar *polar, const struct rsm_
     if (packed) {
         polar->programs.gl->api.BindTextureUnit((GLuint)unit, polar->packed->id);
         irb_program_int(program, "packed_rsm", unit);
-        irb_program_float(program, "flux_unit", largest_flux(rsm) / flux_steps);
+        irb_program_float(program, "flux_unit", irb_rsm_largest_flux(rsm) / flux_steps);
     }
     irb_program_float(program, "bound", s->bound);
     irb_program_float(program, "normal_offset", s->normal_offset);

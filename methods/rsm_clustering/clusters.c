@@ -288,13 +288,6 @@ bool rsc_clusters_sort(struct rsc_clusters *c, const struct irb_rsm *rsm,
     return irb_gl_check(c->gl, pass_table[REORDER].name, err);
 }
 
-/* 1/W: brings the fluxes by which texels are weighted to order 1, whatever the light's power. */
-static float flux_unit_of(const struct irb_rsm *rsm)
-{
-    const float most = fmaxf(rsm->flux_scale[0], fmaxf(rsm->flux_scale[1], rsm->flux_scale[2]));
-    return most > 1e-37f ? 1 / most : 1;
-}
-
 const char *rsc_members_define(const struct rsc_settings *s)
 {
     return s->reduction == RSC_SORT ? "SORTED 1" : "SORTED 0";
@@ -307,7 +300,7 @@ void rsc_members_bind(const struct rsc_clusters *c, const struct irb_program *pr
     bind(c, CLUSTERS_BINDING, c->clusters);
     bind(c, CARRY_BINDING, c->passes->carry);
     irb_program_uint(program, "cluster_count", (unsigned)s->clusters);
-    irb_program_float(program, "flux_unit", flux_unit_of(rsm));
+    irb_program_float(program, "flux_unit", irb_rsm_flux_unit(rsm));
     if (s->reduction == RSC_SORT) {
         bind(c, KEYS_BINDING, c->passes->texel_keys);
         bind(c, RECORDS_BINDING, c->passes->records);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/rsm_clustering/pictures.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -120,13 +119,12 @@ static bool draw_maps(struct rsc_pictures *p, const struct rsc_clusters *cluster
                                           .compute = "methods/rsm_clustering/show_map.comp",
                                           .defines = defines};
     const struct irb_program *program = use(p->gl, &p->passes->map[rsm->layout], &desc, err);
-    const float most = fmaxf(rsm->flux_scale[0], fmaxf(rsm->flux_scale[1], rsm->flux_scale[2]));
     if (!program)
         return false;
     const int unit = irb_rsm_bind(rsm, program, 0);
     p->gl->api.BindTextureUnit((GLuint)unit, clusters->map->id);
     irb_program_int(program, "cluster_map", unit);
-    irb_program_float(program, "flux_unit", most > 1e-37f ? 1 / most : 1);
+    irb_program_float(program, "flux_unit", irb_rsm_flux_unit(rsm));
     show_map(p, program, SHOW_CLUSTERS, p->map);
     show_map(p, program, SHOW_FLUX, p->flux);
     show_map(p, program, SHOW_CLUSTERED, p->clustered);

@@ -4,6 +4,7 @@
  *     L = (k_d n.l + k_s (n.h)^alpha) I / (pi r^2)
  */
 #include "frame/shadow.glsl"
+#include "gl/constants.glsl"
 
 uniform sampler2D gbuffer_position;
 uniform sampler2D gbuffer_normal;
@@ -13,8 +14,6 @@ uniform sampler2D gbuffer_specular;
 uniform vec3 camera_position;
 
 layout(location = 0) out vec4 radiance;
-
-const float INV_PI = 0.318309886183790672;
 
 void main()
 {

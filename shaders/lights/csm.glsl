@@ -9,6 +9,8 @@
  *
  * with c_k = pi (2k - 1) (thesis eq. 3.5); what an odd M leaves over is 0.
  */
+#include "gl/constants.glsl"
+
 #define CSM_PAIRS ((CSM_ORDER + 1) / 2)
 #define CSM_LAYERS (1 + 2 * CSM_PAIRS)
 
@@ -19,9 +21,8 @@ struct csm_phase {
 
 csm_phase csm_phase_of(float x)
 {
-    const float PI_ = 3.14159265358979324;
     csm_phase p;
-    p.now = vec2(cos(PI_ * x), sin(PI_ * x));
+    p.now = vec2(cos(PI * x), sin(PI * x));
     p.turn = vec2(p.now.x * p.now.x - p.now.y * p.now.y, 2.0 * p.now.x * p.now.y);
     return p;
 }

@@ -6,6 +6,7 @@
  *     disc of area A (thesis eq. 5.5):  F = cos_x cos_y / (pi r^2 + A)   (1/m2), E(x) = Phi F
  * F with A = 0 is G/pi. A F, the share of the receiver's hemisphere, stays below 1.
  */
+#include "gl/constants.glsl"
 
 /* Below every r^2 of a scene in metres, and its square is still a normal float: at r = 0 both
  * cosines vanish and G is 0, not 0/0. */
@@ -19,8 +20,6 @@ float geometry_term(vec3 x, vec3 n_x, vec3 y, vec3 n_y)
     float cos_y = max(-dot(n_y, d), 0.0);
     return cos_x * cos_y / (r2 * r2);
 }
-
-const float PI = 3.14159265358979324;
 
 /* F from r cos_x and r cos_y, both >= 0 (m), and r^2. No area is too large: F goes to 0. */
 float disc_form_factor(float r_cos_x, float r_cos_y, float r2, float area)

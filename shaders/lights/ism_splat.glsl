@@ -11,6 +11,7 @@
  * area a that a point of the whole set stands for. With scale^2 that is side^2, rounded to a whole
  * side and kept within [1, splat_most]. a c is the point's own, or even_area for all points.
  */
+#include "gl/constants.glsl"
 #include "lights/paraboloid.glsl"
 #include "lights/virtual_light.glsl"
 
@@ -29,8 +30,6 @@ uniform float near_radii;   /* likewise, in radii sqrt(A/pi) of the light */
 /* Sine of the lowest elevation above a light's plane: below are points of the surface that it
  * stands on, up to rounding. A light sends 1e-6 of its flux there, into a sixteenth of a texel. */
 const float HORIZON = 1e-3;
-
-const float INV_PI = 0.318309886183790672;
 
 struct map_light {
     vec3 position;

@@ -3,6 +3,7 @@
  * The VALs that k-means came to: place, extent, flux and count of each, as a record.
  */
 layout(local_size_x = 64) in;
+#include "gl/constants.glsl"
 #include "lights/virtual_light.glsl"
 #include "lights/vals_statistics.glsl"
 
@@ -14,8 +15,6 @@ layout(std430, binding = 5) buffer Means { vec4 means[]; }; /* position, 1; norm
 uniform int vpl_count, val_count;
 uniform int area_kind; /* 0 second moment, 1 farthest VPL */
 uniform int stand;  /* of the map: 0 mean, 1 lifted, 2 the member nearest to the mean */
-
-const float PI = 3.14159265358979324;
 
 void main()
 {

@@ -11,6 +11,7 @@
  */
 #define GROUP 256
 layout(local_size_x = GROUP) in;
+#include "gl/constants.glsl"
 #include "lights/virtual_light.glsl"
 
 layout(std430, binding = 0) readonly buffer Vpls { vec4 vpls[]; };
@@ -27,7 +28,6 @@ uniform int iterations;      /* of this dispatch, at most */
 uniform float weight_distance; /* 1/m */
 uniform float weight_angle;    /* 1/rad */
 
-const float PI = 3.14159265358979324;
 /* Shorter sums of unit normals, per VPL, have no direction: the first one's stands in. Source: ours. */
 const float LEAST_NORMAL = 1e-4;
 

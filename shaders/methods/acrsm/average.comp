@@ -11,6 +11,7 @@ layout(local_size_x = GROUP) in;
 
 #include "frame/light.glsl"
 #include "frame/rsm_fetch.glsl"
+#include "gl/constants.glsl"
 #include "methods/acrsm/cluster.glsl"
 #include "methods/acrsm/tiles.glsl"
 
@@ -22,7 +23,6 @@ uniform sampler2D importance;
 uniform usampler2D cluster_map;
 uniform bool second_moment; /* area from the second moment instead of the farthest texel */
 
-const float PI = 3.14159265358979324;
 const float LEAST_NORMAL = 0.1; /* length of a mean normal below which it has no direction */
 
 struct sums {

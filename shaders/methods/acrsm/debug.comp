@@ -6,6 +6,7 @@
  */
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "lights/hues.glsl"
 #include "methods/acrsm/cluster.glsl"
 
 uniform usampler2D cluster_map;
@@ -14,17 +15,14 @@ layout(rgba32f, binding = 0) writeonly uniform image2D picture;
 const float DARKER = 0.35;
 const int DOT = 1; /* texels on each side of a centre */
 
-/* Hues in steps of the golden ratio: neighbours in number are far apart in colour. */
 vec3 colour_of(uint i)
 {
     if (i == UNLIT)
         return vec3(0.0);
     if (i == NO_CLUSTER)
         return vec3(1.0);
-    float hue = fract(float(i) * 0.618033988749895);
     float value = 0.55 + 0.15 * float(i % 4u);
-    vec3 rgb = clamp(abs(fract(hue + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
-    return value * mix(vec3(1.0), rgb, 0.75);
+    return value * hue_of(int(i), 0.75);
 }
 
 bool near_centre(ivec2 texel)

@@ -8,6 +8,7 @@
 layout(local_size_x = 1) in;
 
 #include "frame/rsm_fetch.glsl"
+#include "gl/constants.glsl"
 #include "methods/acrsm/cluster.glsl"
 #include "methods/acrsm/evaluation.glsl"
 #include "methods/acrsm/lists.glsl"
@@ -29,7 +30,6 @@ uniform uint seed; /* of this frame */
 
 const int TRIES = 48;       /* random texels, of which the first that will do is taken */
 const int TRIES_A_RADIUS = 8; /* until the radius is halved: far-off texels can make it large */
-const float TAU = 6.28318530717958648;
 
 /* Radius of the cluster in texels, as if it faced the light: no smaller than its image. */
 float radius_in_texels(cluster c, int resolution)

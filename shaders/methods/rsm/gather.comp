@@ -8,6 +8,7 @@
  * (mean of the channels).
  */
 #include "frame/gbuffer_fetch.glsl"
+#include "gl/constants.glsl"
 #include "lights/form_factor.glsl"
 #include "lights/virtual_light.glsl"
 #include "methods/rsm/pixels.glsl"
@@ -18,8 +19,6 @@ layout(rgba32f, binding = 0) uniform image2D irradiance; /* W/m2 */
 uniform int light_count;  /* in this block */
 uniform int first_block;  /* 1: nothing to add to */
 uniform float bound;      /* 1/m2 */
-
-const float INV_PI = 0.318309886183790672;
 
 void main()
 {

@@ -16,6 +16,7 @@
  */
 #include "frame/gbuffer_fetch.glsl"
 #include "frame/rsm_fetch.glsl"
+#include "gl/constants.glsl"
 #include "lights/form_factor.glsl"
 #include "methods/rsm/pixels.glsl"
 #if PACKED
@@ -31,7 +32,6 @@ uniform int first_block;  /* 1: nothing to add to */
 uniform float bound;      /* 1/m2 */
 uniform float normal_offset; /* m */
 
-const float INV_PI = 0.318309886183790672;
 const float LEAST_W = 1e-30;
 
 /* Where the light's image shows the point given in the light's frame, in texels. */

@@ -14,6 +14,7 @@
  * the rim of the texels' hull, widened by a regular polygon of that radius.
  */
 layout(local_size_x = 32) in;
+#include "gl/constants.glsl"
 #include "lights/paraboloid.glsl"
 #include "lights/polygon_light.glsl"
 #include "lights/virtual_light.glsl"
@@ -33,8 +34,6 @@ uniform uint cluster_count;
 uniform uint light_count; /* whole blocks */
 uniform int area;
 uniform float flux_unit; /* 1/W */
-
-const float PI = 3.14159265358979324;
 
 struct extent {
     float weight, moment; /* sum of w, of w |x - x_c|^2 */

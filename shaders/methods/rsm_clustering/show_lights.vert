@@ -3,6 +3,7 @@
  * The area lights as the camera sees them, an instance each (Prutkin et al. 2012, figures 1 and 3):
  * discs as hexagons of the same area (CORNERS 0), or polygons.
  */
+#include "gl/constants.glsl"
 #include "lights/paraboloid.glsl"
 #include "lights/polygon_light.glsl"
 #include "methods/rsm_clustering/cluster_colour.glsl"
@@ -15,8 +16,6 @@ uniform vec2 near_far;
 
 flat out vec3 light_colour;
 out vec3 world_position;
-
-const float PI = 3.14159265358979324;
 
 vec3 corner_of(uint first, int i)
 {
