@@ -17,6 +17,7 @@
 #ifndef IRB_METHODS_ACRSM_CLUSTERS_H
 #define IRB_METHODS_ACRSM_CLUSTERS_H
 
+#include "core/lights/cluster_map.h"
 #include "core/lights/importance.h"
 #include "core/lights/pyramid.h"
 #include "core/lights/virtual_light.h"
@@ -70,9 +71,6 @@ struct acrsm_verification {
     float sum_squares, sum, delta, unused;
 };
 
-/* Red and green of the cluster map where there is no cluster or no centre; red where no flux is. */
-enum acrsm_map_value { ACRSM_UNLIT = -2, ACRSM_NONE = -1 };
-
 enum acrsm_program {
     ACRSM_EVALUATE,
     ACRSM_EVALUATE_MAP,
@@ -98,7 +96,7 @@ struct acrsm_light_pose {
 
 struct acrsm_clusters {
     struct irb_texture *map;       /* RG32UI, resolution^2: cluster of each texel; cluster that has
-                                      its centre here (enum acrsm_map_value, else an index) */
+                                      its centre here (core/lights/cluster_map.h) */
     struct irb_buffer *state;      /* ACRSM_CLUSTERS_MOST struct acrsm_cluster */
     struct irb_buffer *evaluation; /* as many struct acrsm_verification; a random order, uint32 */
     struct irb_buffer *lights;     /* IRB_VPL_BLOCK virtual lights */

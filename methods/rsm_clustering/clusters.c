@@ -372,9 +372,9 @@ static bool count_texels(const struct rsc_clusters *c, struct rsc_census *census
     bool ok = irb_buffer_read(c->passes->rows, 0, (int64_t)bytes, rows, err);
     for (size_t i = 0; ok && i < bytes / sizeof(float); i += 4) {
         census->lit += (int)rows[i];
-        census->lost += (int)rows[i + 1];
+        census->uncovered += (int)rows[i + 1];
         census->flux += rows[i + 2];
-        census->lost_flux += rows[i + 3];
+        census->uncovered_flux += rows[i + 3];
     }
     free(rows);
     return ok;

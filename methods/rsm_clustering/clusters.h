@@ -9,6 +9,7 @@
 #define IRB_METHODS_RSM_CLUSTERING_CLUSTERS_H
 
 #include "core/gl/sort.h"
+#include "core/lights/cluster_map.h"
 #include "core/lights/pyramid.h"
 
 #include <stdint.h>
@@ -43,14 +44,11 @@ struct rsc_cluster {
     float cell[2], seeded, unused;
 };
 
-/* Texels of the cluster map that have no cluster, as int. */
-enum { RSC_UNLIT = -1, RSC_LOST = -2 }; /* no flux; no cluster within reach */
-
 struct rsc_clusters {
     int resolution;              /* of the RSM */
     int count;                   /* k of the last seeding; 0: no history */
     struct irb_buffer *clusters; /* struct rsc_cluster each */
-    struct irb_texture *map;     /* R32UI, resolution^2: cluster, or RSC_UNLIT, RSC_LOST */
+    struct irb_texture *map;     /* core/lights/cluster_map.h, resolution^2 */
     struct rsc_passes *passes;   /* private */
     struct irb_gl *gl;           /* borrowed */
 };
@@ -98,11 +96,11 @@ void rsc_members_dispatch(const struct rsc_clusters *clusters, const struct irb_
 
 /* What a frame's clustering did. */
 struct rsc_census {
-    int in_use;       /* clusters with texels */
-    int seeded;       /* clusters that were put on a new texel */
-    int lit, lost;    /* texels with flux; those of them without a cluster within reach */
-    double flux;      /* W, mean of the channels: of all texels */
-    double lost_flux; /* W: of those without a cluster */
+    int in_use;            /* clusters with texels */
+    int seeded;            /* clusters that were put on a new texel */
+    int lit, uncovered;    /* texels with flux; those of them without a cluster within reach */
+    double flux;           /* W, mean of the channels: of all texels */
+    double uncovered_flux; /* W: of those without a cluster */
 };
 /* Waits for the GPU. */
 bool rsc_clusters_count(struct rsc_clusters *clusters, const struct irb_rsm *rsm,

@@ -246,12 +246,12 @@ static bool report(struct rsc_state *s, const struct irb_frame_inputs *in,
     struct rsc_census census;
     if (!rsc_clusters_count(s->clusters, in->rsm, &census, err))
         return false;
-    out->uncovered_flux = census.flux > 0 ? census.lost_flux / census.flux : 0;
+    out->uncovered_flux = census.flux > 0 ? census.uncovered_flux / census.flux : 0;
     irb_output_statistic(out, "clusters", r->clustering.clusters);
     irb_output_statistic(out, "clusters_in_use", census.in_use);
     irb_output_statistic(out, "seeded", census.seeded);
     irb_output_statistic(out, "lit_texels", census.lit);
-    irb_output_statistic(out, "lost_texels", census.lost);
+    irb_output_statistic(out, "lost_texels", census.uncovered);
     return !r->is_clustered || report_vals(s, out, err);
 }
 

@@ -33,7 +33,7 @@ static double distance_of(const struct acrsm_settings *s, const struct acrsm_clu
 static int nearest(const struct acrsm_fixture *a, const struct acrsm_cluster *state,
                    const struct acrsm_texels *t, int p, bool everywhere, double *least)
 {
-    int best = ACRSM_NONE;
+    int best = IRB_CLUSTER_NONE;
     *least = INFINITY;
     for (int i = 0; i < a->settings.clusters; i++) {
         if (!(state[i].count > 0 || state[i].count == PLACED) ||
@@ -60,18 +60,18 @@ static void check_mapping(const struct acrsm_fixture *a, const struct acrsm_clus
     for (int p = 0; p < texels; p++) {
         double least;
         if (!acrsm_is_lit(t, p)) {
-            REQUIRE_NEAR(map[2 * p], ACRSM_UNLIT, 0);
+            REQUIRE_NEAR(map[2 * p], IRB_CLUSTER_UNLIT, 0);
             continue;
         }
         int expected = nearest(a, state, t, p, false, &least);
-        if (expected == ACRSM_NONE && nearest_cover)
+        if (expected == IRB_CLUSTER_NONE && nearest_cover)
             expected = nearest(a, state, t, p, true, &least);
         lit++;
-        uncovered += map[2 * p] == ACRSM_NONE;
+        uncovered += map[2 * p] == IRB_CLUSTER_NONE;
         if (map[2 * p] == expected)
             continue;
         others++;
-        if (map[2 * p] == ACRSM_NONE || expected == ACRSM_NONE)
+        if (map[2 * p] == IRB_CLUSTER_NONE || expected == IRB_CLUSTER_NONE)
             fail_msg("texel %d: cluster %d, expected %d", p, map[2 * p], expected);
         REQUIRE_REL(distance_of(&a->settings, &state[map[2 * p]], t, p), least, 1e-5);
     }
@@ -245,7 +245,7 @@ static void check_conservation(struct acrsm_fixture *a)
         double channel = 0, channel_lost = 0, emitted = 0;
         for (int p = 0; p < a->resolution * a->resolution; p++) {
             channel += acrsm_texel(&t.flux, p)[c];
-            channel_lost += map[2 * p] == ACRSM_NONE ? acrsm_texel(&t.flux, p)[c] : 0;
+            channel_lost += map[2 * p] == IRB_CLUSTER_NONE ? acrsm_texel(&t.flux, p)[c] : 0;
         }
         for (int i = 0; i < a->settings.clusters; i++)
             emitted += lights[i][8 + c];

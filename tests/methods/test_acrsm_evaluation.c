@@ -51,7 +51,8 @@ static void verify(const struct acrsm_fixture *a, const struct step *s, int i, d
     *squares = *sum = 0;
     for (int p = 0; p < n * n; p++) {
         int j = s->map[2 * p + 1];
-        if (j == ACRSM_NONE || j == i || !acrsm_in_square(&s->before[i], p % n, p / n, side, n))
+        if (j == IRB_CLUSTER_NONE || j == i ||
+            !acrsm_in_square(&s->before[i], p % n, p / n, side, n))
             continue;
         double delta = delta_of(a, s, j);
         *squares += delta * delta;
@@ -99,7 +100,7 @@ static bool lies_inside(const struct acrsm_fixture *a, const struct step *s, uin
     const struct acrsm_cluster *c = &s->after[seed];
     const int p =
         acrsm_centre_y(c, a->resolution) * a->resolution + acrsm_centre_x(c, a->resolution);
-    return s->map[2 * p] == (int)parent && s->map[2 * p + 1] == ACRSM_NONE;
+    return s->map[2 * p] == (int)parent && s->map[2 * p + 1] == IRB_CLUSTER_NONE;
 }
 
 struct counts {

@@ -174,7 +174,7 @@ static double least_difference(const struct frame *f, int i, const struct rsc_se
 }
 
 struct agreement {
-    int lit, lost;
+    int lit, uncovered;
     int other; /* texels that have not the cluster of the arg min */
     int wrong; /* those of them that rounding does not explain */
 };
@@ -188,12 +188,12 @@ static struct agreement compare_brute(const struct frame *f, const struct rsc_se
     for (int i = 0; i < f->n * f->n; i++) {
         int best;
         if (!is_lit(texel(f, &f->flux, i))) {
-            assert_int_equal(f->map[i], RSC_UNLIT);
+            assert_int_equal(f->map[i], IRB_CLUSTER_UNLIT);
             continue;
         }
         a.lit++;
-        a.lost += f->map[i] == RSC_LOST;
-        if (f->map[i] == RSC_LOST)
+        a.uncovered += f->map[i] == IRB_CLUSTER_NONE;
+        if (f->map[i] == IRB_CLUSTER_NONE)
             continue;
         REQUIRE_CMP(f->map[i], >=, 0);
         REQUIRE_CMP(f->map[i], <, f->k);
@@ -230,13 +230,13 @@ static void test_assignment(void **state)
                 print_message("%s, w_n %g, r %d, frame %d: of %d lit texels %.2f %% have another "
                               "cluster than by brute force, %.2f %% none\n",
                               kinds[kind].scene, (double)s.weight_normal, reach, frame, a.lit,
-                              100.0 * a.wrong / a.lit, 100.0 * a.lost / a.lit);
+                              100.0 * a.wrong / a.lit, 100.0 * a.uncovered / a.lit);
                 REQUIRE_CMP(a.lit, >, 3000);
                 REQUIRE_CMP(a.wrong, <=, most[reach + 1] * a.lit);
                 if (reach < 0) /* as good as ties: centimetres squared against w_n and w_phi */
                     REQUIRE_CMP(a.other, <, 0.01 * a.lit);
                 if (reach)
-                    REQUIRE_NEAR(a.lost, 0, 0);
+                    REQUIRE_NEAR(a.uncovered, 0, 0);
                 frame_destroy(&r);
             }
         }
@@ -248,14 +248,14 @@ static void test_assignment(void **state)
 /* Means and sums of each cluster's texels in double precision. */
 static void check_means(const struct frame *f, const struct fixture_frame *scene)
 {
-    double *sum = calloc((size_t)f->k * 8, sizeof *sum), flux[3] = {0}, lost[3] = {0};
+    double *sum = calloc((size_t)f->k * 8, sizeof *sum), flux[3] = {0}, uncovered[3] = {0};
     for (int i = 0; i < f->n * f->n; i++) {
         const float *x = texel(f, &f->position, i), *n = texel(f, &f->normal, i);
         const float *phi = texel(f, &f->flux, i);
         const double w = (double)phi[0] + phi[1] + phi[2];
         for (int m = 0; m < 3; m++) {
             flux[m] += phi[m];
-            lost[m] += f->map[i] == RSC_LOST ? phi[m] : 0;
+            uncovered[m] += f->map[i] == IRB_CLUSTER_NONE ? phi[m] : 0;
             if (f->map[i] >= 0) {
                 sum[8 * f->map[i] + m] += w * x[m];
                 sum[8 * f->map[i] + 3 + m] += w * n[m];
@@ -284,7 +284,7 @@ static void check_means(const struct frame *f, const struct fixture_frame *scene
         }
     }
     for (int m = 0; m < 3; m++) /* nothing is lost on the way */
-        REQUIRE_NEAR(found[m] + lost[m], flux[m], 1e-5 * (flux[m] + 1e-12));
+        REQUIRE_NEAR(found[m] + uncovered[m], flux[m], 1e-5 * (flux[m] + 1e-12));
     free(sum);
 }
 
@@ -303,7 +303,7 @@ static void test_update(void **state)
             rsc_clusters_forget(c);
             s.clusters = counts[kind];
             s.reduction = (enum rsc_reduction)reduction;
-            s.reach = kind == 2 ? 0 : 2; /* some texels are lost */
+            s.reach = kind == 2 ? 0 : 2; /* some texels are uncovered */
             for (int i = 0; i < 2; i++) {
                 frames[reduction] = cluster(c, &f, &s);
                 check_means(&frames[reduction], &f);
@@ -440,7 +440,7 @@ static void test_few_texels(void **state)
                     REQUIRE_NEAR(n.in_use > 0, kind > 0, 0);
                     REQUIRE_CMP(n.in_use, <=, n.lit);
                     if (kind == 1)
-                        REQUIRE_NEAR(n.lost, 0, 0);
+                        REQUIRE_NEAR(n.uncovered, 0, 0);
                     frame_destroy(&r);
                 }
             }

@@ -2,7 +2,12 @@
  *
  * The state of a cluster (thesis table 5.2) as methods/acrsm/clusters.h lays it out; 80 bytes in
  * std140 and std430. Its verification measures lie in a buffer of their own (evaluation.glsl).
+ *
+ * The cluster map (thesis 5.1.2) has in red the texel's cluster, of those whose squares cover it; in
+ * green the cluster that has its centre here, or NO_CLUSTER.
  */
+#include "lights/cluster_map.glsl"
+
 #define CLUSTERS_MOST 512
 
 struct cluster {
@@ -32,16 +37,6 @@ bool in_use(int count)
 bool is_mapped_to(int count)
 {
     return count > 0 || count == PLACED;
-}
-
-/* The cluster map (thesis 5.1.2): red: the texel's cluster; green: the cluster that has its centre
- * here. */
-const uint NO_CLUSTER = 0xffffffffu;    /* red: lit, but no square covers it; green: no centre */
-const uint UNLIT = 0xfffffffeu;
-
-bool is_lit(vec3 flux)
-{
-    return any(greaterThan(flux, vec3(0.0)));
 }
 
 ivec2 texel_at(vec2 uv, int resolution)

@@ -20,8 +20,8 @@ void main()
     for (int x = 0; x < resolution; x++) {
         vec3 flux = rsm_fetch_flux(ivec2(x, y));
         float mean = (flux.r + flux.g + flux.b) / 3.0;
-        bool lost = texelFetch(cluster_map, ivec2(x, y), 0).r == NO_CLUSTER;
-        sum += vec4(mean, lost ? mean : 0.0, is_lit(flux) ? 1.0 : 0.0, lost ? 1.0 : 0.0);
+        bool uncovered = texelFetch(cluster_map, ivec2(x, y), 0).r == NO_CLUSTER;
+        sum += vec4(mean, uncovered ? mean : 0.0, is_lit(flux) ? 1.0 : 0.0, uncovered ? 1.0 : 0.0);
     }
     rows[y] = sum;
 }

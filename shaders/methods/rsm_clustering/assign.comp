@@ -8,7 +8,7 @@
  */
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "frame/rsm_fetch.glsl"
-#include "methods/rsm_clustering/cluster_map.glsl"
+#include "lights/cluster_map.glsl"
 #include "methods/rsm_clustering/keys.glsl"
 #include "methods/rsm_clustering/list.glsl"
 #include "methods/rsm_clustering/metric.glsl"
@@ -39,7 +39,7 @@ void choose(inout choice best, traits p, uint begin, uint end)
 uint cluster_of(ivec2 texel, vec3 flux)
 {
     traits p = traits(rsm_fetch_position(texel).xyz, rsm_fetch_normal(texel), colour_of(flux));
-    choice best = choice(LOST, uintBitsToFloat(0x7f800000u));
+    choice best = choice(NO_CLUSTER, uintBitsToFloat(0x7f800000u));
     if (reach < 0) {
         choose(best, p, 0u, cell_starts[cells * cells]);
         return best.id;
@@ -58,9 +58,9 @@ void main()
     if (any(greaterThanEqual(texel, ivec2(side))))
         return;
     vec3 flux = rsm_fetch_flux(texel);
-    uint id = any(greaterThan(flux, vec3(0.0))) ? cluster_of(texel, flux) : UNLIT;
+    uint id = is_lit(flux) ? cluster_of(texel, flux) : UNLIT;
     imageStore(cluster_map, texel, uvec4(id));
     uint index = uint(texel.y * side + texel.x);
     if (texel_bits > 0)
-        keys[index] = id < LOST ? id << texel_bits | index : NO_KEY;
+        keys[index] = is_cluster(id) ? id << texel_bits | index : NO_KEY;
 }

@@ -5,7 +5,7 @@
  */
 layout(local_size_x = 64) in;
 #include "frame/rsm_fetch.glsl"
-#include "methods/rsm_clustering/cluster_map.glsl"
+#include "lights/cluster_map.glsl"
 
 uniform usampler2D cluster_map;
 layout(std430, binding = 6) writeonly buffer Rows { vec4 rows[]; };
@@ -20,8 +20,9 @@ void main()
         uint id = texelFetch(cluster_map, ivec2(x, y), 0).r;
         vec3 flux = rsm_fetch_flux(ivec2(x, y));
         float mean = (flux.r + flux.g + flux.b) / 3.0;
-        bool lost = id == LOST;
-        sum += vec4(id != UNLIT ? 1.0 : 0.0, lost ? 1.0 : 0.0, mean, lost ? mean : 0.0);
+        bool uncovered = id == NO_CLUSTER;
+        sum += vec4(id != UNLIT ? 1.0 : 0.0, uncovered ? 1.0 : 0.0, mean,
+                    uncovered ? mean : 0.0);
     }
     rows[y] = sum;
 }

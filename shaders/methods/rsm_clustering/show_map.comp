@@ -7,9 +7,9 @@
  */
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "frame/rsm_fetch.glsl"
+#include "lights/cluster_map.glsl"
 #include "methods/rsm_clustering/cluster.glsl"
 #include "methods/rsm_clustering/cluster_colour.glsl"
-#include "methods/rsm_clustering/cluster_map.glsl"
 
 #define SHOW_CLUSTERS 0
 #define SHOW_FLUX 1
@@ -28,10 +28,10 @@ void main()
     uint id = texelFetch(cluster_map, texel, 0).r;
     vec3 flux = rsm_fetch_flux(texel), colour = vec3(0.0);
     if (show == SHOW_CLUSTERS) {
-        colour = id < LOST ? cluster_colour(id) : vec3(id == LOST ? 1.0 : 0.0);
+        colour = is_cluster(id) ? cluster_colour(id) : vec3(id == NO_CLUSTER ? 1.0 : 0.0);
     } else {
         if (show == SHOW_CLUSTERED)
-            flux = id < LOST ? load_cluster(id).flux / load_cluster(id).texels : vec3(0.0);
+            flux = is_cluster(id) ? load_cluster(id).flux / load_cluster(id).texels : vec3(0.0);
         colour = pow(clamp(flux * flux_unit, 0.0, 1.0), vec3(1.0 / 2.2));
     }
     imageStore(picture, texel, vec4(colour, 1.0));
