@@ -86,6 +86,18 @@ struct irb_interleave *irb_interleave_create(struct irb_gl *gl, int width, int h
     return NULL;
 }
 
+bool irb_interleave_prepare(struct irb_interleave **interleave, struct irb_gl *gl, int width,
+                            int height, int n, int m, struct irb_error *err)
+{
+    const struct irb_interleave *have = *interleave;
+    if (have && have->width == width && have->height == height && have->n == smaller(n, width) &&
+        have->m == smaller(m, height))
+        return true;
+    irb_interleave_destroy(*interleave);
+    *interleave = irb_interleave_create(gl, width, height, n, m, err);
+    return *interleave != NULL;
+}
+
 void irb_interleave_destroy(struct irb_interleave *il)
 {
     if (!il)

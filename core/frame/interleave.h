@@ -43,6 +43,9 @@ struct irb_interleave {
  * without pixels would lose the light of its lights. */
 struct irb_interleave *irb_interleave_create(struct irb_gl *gl, int width, int height, int n, int m,
                                              struct irb_error *err);
+/* The same into *interleave, unless it is like that already; what was there is destroyed. */
+bool irb_interleave_prepare(struct irb_interleave **interleave, struct irb_gl *gl, int width,
+                            int height, int n, int m, struct irb_error *err);
 void irb_interleave_destroy(struct irb_interleave *interleave);
 
 /* `position` and `normal` from a G-buffer of the same size and of either layout. */

@@ -4,8 +4,6 @@
 
 #include <stdlib.h>
 
-const char *const irb_importance_norm_names[] = {"max", "none", NULL};
-
 /* Bindings and work groups of shaders/lights/importance*.comp. */
 enum { STATE_BINDING = 0, SAMPLES_BINDING = 1, SAMPLES_UNIFORM_BINDING = 0 };
 enum { TEXEL_GROUP = 8, SAMPLE_GROUP = 64 };

@@ -28,7 +28,6 @@
 #include "core/frame/rsm.h"
 
 enum irb_importance_norm { IRB_IMPORTANCE_NORM_MAX, IRB_IMPORTANCE_NORM_NONE };
-extern const char *const irb_importance_norm_names[]; /* "max", "none", NULL */
 enum irb_importance_view { IRB_IMPORTANCE_LAMBERT, IRB_IMPORTANCE_GEOMETRY };
 
 enum { IRB_IMPORTANCE_MOST_VIEW_SAMPLES = 1024 };

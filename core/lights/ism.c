@@ -5,7 +5,6 @@
 
 #include <stdlib.h>
 
-const char *const irb_ism_splatter_names[] = {"atomic", "raster", "tessellation", NULL};
 const char *const irb_ism_size_names[] = {"even", "surface", NULL};
 const char *const irb_ism_pull_names[] = {"median", "mean", NULL};
 
@@ -62,6 +61,17 @@ struct irb_ism *irb_ism_create(struct irb_gl *gl, int map_size, int capacity, st
         return ism;
     irb_ism_destroy(ism);
     return NULL;
+}
+
+bool irb_ism_prepare(struct irb_ism **ism, struct irb_gl *gl, int map_size, int capacity,
+                     struct irb_error *err)
+{
+    const struct irb_ism *have = *ism;
+    if (have && have->map_size == map_size && have->capacity >= capacity)
+        return true;
+    irb_ism_destroy(*ism);
+    *ism = irb_ism_create(gl, map_size, capacity, err);
+    return *ism != NULL;
 }
 
 void irb_ism_destroy(struct irb_ism *ism)

@@ -27,7 +27,6 @@ enum irb_ism_splatter {
     IRB_ISM_TESSELLATION, /* thesis, dynamic points: tessellation of every triangle as it is now,
                              then as RASTER. Alpha masks are not seen. */
 };
-extern const char *const irb_ism_splatter_names[]; /* "atomic", "raster", "tessellation", NULL */
 
 enum irb_ism_pull {
     IRB_ISM_MEDIAN, /* thesis: a coarser texel takes the median of its four, of an even number of
@@ -84,6 +83,10 @@ struct irb_ism {
  * the driver's limits. One ISM serves one scene: it keeps what it measured there. */
 struct irb_ism *irb_ism_create(struct irb_gl *gl, int map_size, int capacity,
                                struct irb_error *err);
+/* The same into *ism, unless there are as many maps of that size already; what was there is
+ * destroyed. */
+bool irb_ism_prepare(struct irb_ism **ism, struct irb_gl *gl, int map_size, int capacity,
+                     struct irb_error *err);
 void irb_ism_destroy(struct irb_ism *ism); /* NULL is fine */
 
 /* irb_ism_splat(), then irb_ism_pull_push(). points is NULL for TESSELLATION, which makes its own.

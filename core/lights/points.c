@@ -76,7 +76,10 @@ struct irb_points *irb_points_create(struct irb_gl *gl, const struct irb_scene_g
                                       .count = list.count,
                                       .area = list.area,
                                       .runs = list.runs,
-                                      .run_count = list.run_count};
+                                      .run_count = list.run_count,
+                                      .made_by = *desc,
+                                      .weighted = desc->weights != NULL};
+        points->made_by.weights = NULL; /* they are borrowed until now only */
         list.runs = NULL;
         points->density = irb_buffer_create(
             gl, "points: density", (int64_t)scene->scene->triangle_count * 4, list.density, err);
@@ -93,6 +96,26 @@ struct irb_points *irb_points_create(struct irb_gl *gl, const struct irb_scene_g
     }
     irb_points_destroy(points);
     return NULL;
+}
+
+static bool are_made_by(const struct irb_points *points, const struct irb_points_desc *desc)
+{
+    const struct irb_points_desc *by = &points->made_by;
+    return !points->weighted && !desc->weights && by->kind == desc->kind &&
+           by->count == desc->count && by->seed == desc->seed && by->f_min == desc->f_min &&
+           by->f_max == desc->f_max && by->smoothstep == desc->smoothstep &&
+           by->most_bytes == desc->most_bytes && by->chunk_bytes == desc->chunk_bytes;
+}
+
+bool irb_points_prepare(struct irb_points **points, struct irb_gl *gl,
+                        const struct irb_scene_gl *scene, const struct irb_points_desc *desc,
+                        struct irb_error *err)
+{
+    if (*points && are_made_by(*points, desc))
+        return true;
+    irb_points_destroy(*points);
+    *points = irb_points_create(gl, scene, desc, err);
+    return *points != NULL;
 }
 
 void irb_points_destroy(struct irb_points *points)

@@ -31,7 +31,6 @@
 #include "core/frame/scene_gl.h"
 
 enum irb_points_kind { IRB_POINTS_AREA, IRB_POINTS_TESSELLATION };
-extern const char *const irb_points_kind_names[]; /* "area", "tessellation", NULL */
 
 struct irb_points_desc {
     int kind;             /* enum irb_points_kind */
@@ -102,14 +101,21 @@ struct irb_points {
     int chunk_count;
     struct irb_points_run *runs;
     int run_count;
-    struct irb_buffer *density; /* float a triangle, as in struct irb_point_list */
-    int64_t bytes;              /* of all buffers */
+    struct irb_buffer *density;     /* float a triangle, as in struct irb_point_list */
+    int64_t bytes;                  /* of all buffers */
+    struct irb_points_desc made_by; /* without the weights */
+    bool weighted;                  /* whether there were any */
 };
 
 /* The set of a scene at rest, generated on the CPU and uploaded chunk by chunk: at no time do CPU
  * and GPU hold more than one chunk twice. */
 struct irb_points *irb_points_create(struct irb_gl *gl, const struct irb_scene_gl *scene,
                                      const struct irb_points_desc *desc, struct irb_error *err);
+/* The same into *points, unless they are made so already; what was there is destroyed. Points with
+ * weights are always made anew. */
+bool irb_points_prepare(struct irb_points **points, struct irb_gl *gl,
+                        const struct irb_scene_gl *scene, const struct irb_points_desc *desc,
+                        struct irb_error *err);
 void irb_points_destroy(struct irb_points *points);
 
 #endif

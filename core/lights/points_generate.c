@@ -6,8 +6,6 @@
 
 #include <stdlib.h>
 
-const char *const irb_points_kind_names[] = {"area", "tessellation", NULL};
-
 static int64_t most_bytes(const struct irb_points_desc *desc)
 {
     return desc->most_bytes > 0 ? desc->most_bytes : (int64_t)IRB_POINTS_MOST_BYTES;

@@ -278,21 +278,26 @@ bool irb_shade_run(struct irb_shade *shade, struct irb_interleave *interleave,
 }
 
 bool irb_shade_run_raster(struct irb_shade *shade, struct irb_interleave *interleave,
-                          const struct irb_virtual_lights *lights, struct irb_raster_maps *maps,
-                          const struct irb_scene_gl *scene, float near,
+                          const struct irb_virtual_lights *lights,
+                          const struct irb_shade_raster *raster,
                           const struct irb_shade_settings *settings, struct irb_error *err)
 {
+    struct irb_raster_maps *maps = raster->maps;
     struct irb_shade_batch batch = {.raster = maps};
+    bool ok;
     do { /* no lights at all still take one batch, which writes zeros */
-        const int rest = lights->count - batch.first;
-        batch.count = rest < maps->capacity ? rest : maps->capacity;
+        batch.count = least(lights->count - batch.first, maps->capacity);
         batch.accumulate = batch.first > 0;
-        if (!irb_raster_maps_render(maps, scene, lights, batch.first, batch.count, near, err) ||
-            !irb_shade_run_batch(shade, interleave, lights, NULL, settings, &batch, err))
-            return false;
+        irb_timer_begin(raster->timer, raster->maps_stage);
+        ok = irb_raster_maps_render(maps, raster->scene, lights, batch.first, batch.count,
+                                    raster->near, err);
+        irb_timer_end(raster->timer);
+        irb_timer_begin(raster->timer, raster->light_stage);
+        ok = ok && irb_shade_run_batch(shade, interleave, lights, NULL, settings, &batch, err);
+        irb_timer_end(raster->timer);
         batch.first += batch.count;
-    } while (batch.first < lights->count);
-    return true;
+    } while (ok && batch.first < lights->count);
+    return ok;
 }
 
 bool irb_shade_lost(struct irb_shade *shade, const struct irb_interleave *il, double *share,

@@ -32,6 +32,7 @@
 #define IRB_LIGHTS_SHADE_H
 
 #include "core/frame/interleave.h"
+#include "core/gl/timer.h"
 #include "core/lights/ism.h"
 #include "core/lights/raster_maps.h"
 #include "core/lights/shadow_kernel.h"
@@ -87,12 +88,18 @@ bool irb_shade_run_batch(struct irb_shade *shade, struct irb_interleave *interle
                          const struct irb_shade_batch *batch, struct irb_error *err);
 
 /* RASTER from all lights, like irb_shade_run(): in batches of the maps' capacity, each batch's maps
- * are rendered, then shaded. `near` as irb_raster_maps_render() has it. Who times maps and shading
- * apart calls the two himself. A bias of 0.01 and no slope came closest to rays among those tried
- * in the Cornell box with objects (maps of 128 x 128 texels). */
+ * are rendered, then shaded. A bias of 0.01 and no slope came closest to rays among those tried in
+ * the Cornell box with objects (maps of 128 x 128 texels). */
+struct irb_shade_raster {
+    struct irb_raster_maps *maps;     /* borrowed, as all of this */
+    const struct irb_scene_gl *scene; /* what they show */
+    float near;                       /* as irb_raster_maps_render() has it */
+    struct irb_timer *timer;          /* NULL: nothing is timed */
+    int maps_stage, light_stage;
+};
 bool irb_shade_run_raster(struct irb_shade *shade, struct irb_interleave *interleave,
-                          const struct irb_virtual_lights *lights, struct irb_raster_maps *maps,
-                          const struct irb_scene_gl *scene, float near,
+                          const struct irb_virtual_lights *lights,
+                          const struct irb_shade_raster *raster,
                           const struct irb_shade_settings *settings, struct irb_error *err);
 
 /* Share of the irradiance that the last runs' bound took, [0,1]; 0 where there was no bound, or no

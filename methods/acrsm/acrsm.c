@@ -4,9 +4,10 @@
  * as area lights, with soft shadows from imperfect shadow maps and interleaved shading.
  */
 #include "core/frame/shadow_term.h"
+#include "core/lights/ism_lighting.h"
 #include "core/lights/tessellation.h"
 #include "methods/method.h"
-#include "methods/acrsm/shadows.h"
+#include "methods/acrsm/params.h"
 
 #include <stdlib.h>
 
@@ -28,6 +29,9 @@ enum {
 static const char *const stages[] = {"importance", "evaluate", "seed",  "map",   "average", "splat",
                                      "pull-push",  "split",    "light", "merge", "filter",  NULL};
 
+/* Thesis 5.1.3: an atlas of 4096 x 4096 texels, maps of 128 x 128. */
+enum { MAP_SIZE = 128, MAPS = 1024 };
+
 struct acrsm_state {
     struct irb_gl *gl; /* borrowed */
     int width, height;
@@ -37,7 +41,7 @@ struct acrsm_state {
     struct irb_importance *importance;
     struct irb_pyramid *pyramid;
     struct acrsm_clusters *clusters;
-    struct acrsm_lighting lighting;
+    struct irb_ism_lighting lighting;
     /* for debugging, when first asked for */
     struct irb_texture *map_picture, *centre_picture;
     struct irb_shadow_term *shadow_term;
@@ -62,7 +66,7 @@ static void acrsm_destroy(void *user)
     if (!s)
         return;
     destroy_clustering(s);
-    acrsm_lighting_destroy(&s->lighting);
+    irb_ism_lighting_destroy(&s->lighting);
     irb_texture_destroy(s->irradiance);
     irb_shadow_term_destroy(s->shadow_term);
     free(s);
@@ -123,6 +127,23 @@ static bool prepare_clustering(struct acrsm_state *s, int resolution, struct irb
            acrsm_clusters_begin(s->clusters, s->seed, err);
 }
 
+static bool prepare_lighting(struct acrsm_state *s, const struct irb_frame_inputs *in,
+                             const struct acrsm_resolved *r, struct irb_error *err)
+{
+    const struct acrsm_params *p = in->params;
+    const bool shadows = acrsm_has_shadows(r);
+    const struct irb_ism_lighting_desc desc = {
+        .width = s->width,
+        .height = s->height,
+        .n = p->interleave_n,
+        .m = p->interleave_m,
+        .map_size = MAP_SIZE,
+        .maps = shadows ? MAPS : 0,
+        .points = shadows && !r->dynamic_points ? &r->points : NULL,
+    };
+    return irb_ism_lighting_prepare(&s->lighting, in->scene, &desc, err);
+}
+
 static bool cluster(struct acrsm_state *s, const struct irb_frame_inputs *in,
                     const struct acrsm_resolved *r, struct irb_error *err)
 {
@@ -148,14 +169,14 @@ static bool light(struct acrsm_state *s, const struct irb_frame_inputs *in,
                   const struct acrsm_resolved *r, struct irb_error *err)
 {
     const struct irb_virtual_lights lights = acrsm_clusters_lights(s->clusters);
-    struct acrsm_lighting *l = &s->lighting;
-    const struct irb_ism *maps = acrsm_has_shadows(r) ? l->ism : NULL;
+    struct irb_ism_lighting *l = &s->lighting;
+    const struct irb_ism *maps = acrsm_has_shadows(r) ? l->maps : NULL;
     bool ok = true;
     if (maps) {
         IRB_STAGE(ok, in, STAGE_SPLAT,
-                  irb_ism_splat(l->ism, in->scene, r->dynamic_points ? NULL : l->points, &lights,
+                  irb_ism_splat(l->maps, in->scene, r->dynamic_points ? NULL : l->points, &lights,
                                 &r->ism, err));
-        IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
+        IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->maps, &r->ism, err));
     }
     IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
     IRB_STAGE(ok, in, STAGE_LIGHT,
@@ -175,7 +196,7 @@ static bool report(struct acrsm_state *s, const struct irb_frame_inputs *in,
     struct acrsm_report clusters;
     double coverage = 0;
     if (!acrsm_clusters_report(s->clusters, in->rsm, &clusters, err) ||
-        (acrsm_has_shadows(r) && !irb_ism_coverage(s->lighting.ism, &coverage, err)))
+        (acrsm_has_shadows(r) && !irb_ism_coverage(s->lighting.maps, &coverage, err)))
         return false;
     out->uncovered_flux = clusters.uncovered;
     irb_output_statistic(out, "clusters", r->clustering.clusters);
@@ -216,7 +237,7 @@ static bool debug(struct acrsm_state *s, const struct acrsm_resolved *r,
     irb_output_layer(out, "cluster-centres", s->centre_picture, IRB_DEBUG_COLOUR);
     irb_output_layer(out, "importance", s->importance->map, IRB_DEBUG_SCALAR);
     if (acrsm_has_shadows(r))
-        irb_output_layer(out, "ism-atlas", s->lighting.ism->atlas, IRB_DEBUG_DISTANCE);
+        irb_output_layer(out, "ism-atlas", s->lighting.maps->atlas, IRB_DEBUG_DISTANCE);
     irb_output_layer(out, "shadow-term", s->shadow_term->image, IRB_DEBUG_SCALAR);
     irb_output_layer(out, "split", s->lighting.interleave->split, IRB_DEBUG_RADIANCE);
     return true;
@@ -230,9 +251,7 @@ static bool acrsm_render_frame(void *user, const struct irb_frame_inputs *in,
     struct acrsm_resolved r;
     *out = (struct irb_frame_output){.irradiance = s->irradiance};
     acrsm_params_resolve(p, in->rsm->resolution, irb_scene_diagonal(in->scene->scene), s->seed, &r);
-    return prepare_clustering(s, in->rsm->resolution, err) &&
-           acrsm_lighting_prepare(&s->lighting, in->scene, &r, s->width, s->height, p->interleave_n,
-                                  p->interleave_m, err) &&
+    return prepare_clustering(s, in->rsm->resolution, err) && prepare_lighting(s, in, &r, err) &&
            cluster(s, in, &r, err) && light(s, in, &r, err) && report(s, in, &r, out, err) &&
            (!in->debug || debug(s, &r, out, err));
 }

@@ -103,22 +103,6 @@ static bool cv_begin_sequence(void *user, const void *settings, uint64_t seed,
     return true;
 }
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static bool prepare_interleave(struct cv_state *s, int n, int m, struct irb_error *err)
-{
-    const struct irb_interleave *have = s->interleave;
-    if (have && have->width == s->width && have->height == s->height &&
-        have->n == smaller(n, s->width) && have->m == smaller(m, s->height))
-        return true;
-    irb_interleave_destroy(s->interleave);
-    s->interleave = irb_interleave_create(s->gl, s->width, s->height, n, m, err);
-    return s->interleave != NULL;
-}
-
 static bool prepare_vpls(struct cv_state *s, int resolution, struct irb_error *err)
 {
     if (!s->vpls || s->rsm_resolution != resolution) {
@@ -212,7 +196,8 @@ static bool cv_render_frame(void *user, const struct irb_frame_inputs *in,
     struct cv_resolved r;
     *out = (struct irb_frame_output){.irradiance = s->irradiance};
     cv_params_resolve(in->params, irb_scene_diagonal(in->scene->scene), s->seed, &r);
-    if (!prepare_interleave(s, r.interleave_n, r.interleave_m, err) ||
+    if (!irb_interleave_prepare(&s->interleave, s->gl, s->width, s->height, r.interleave_n,
+                                r.interleave_m, err) ||
         !prepare_vpls(s, in->rsm->resolution, err) ||
         !irb_val_lighting_prepare(&s->lighting, s->interleave, &r.lighting, r.clustering.vals, err))
         return false;

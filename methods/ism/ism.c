@@ -98,7 +98,7 @@ static bool sample(struct ism_objects *o, const struct irb_frame_inputs *in, str
 {
     const struct ism_params *p = in->params;
     const unsigned first = first_point(p, in, p->vpls);
-    o->lights->tiles = o->interleave->n * o->interleave->m;
+    o->lights->tiles = o->lighting.interleave->n * o->lighting.interleave->m;
     if (p->importance == ISM_FLUX)
         return irb_vpl_set_sample(o->lights, in->rsm, p->vpls, first, err);
     const struct irb_importance_settings settings = {
@@ -143,14 +143,13 @@ static bool build_maps(struct ism_objects *o, const struct irb_frame_inputs *in,
 {
     const struct irb_ism_settings settings = map_settings(in->params);
     const struct irb_virtual_lights lights = irb_vpl_set_view(o->lights);
-    irb_timer_begin(in->timer, STAGE_SPLAT);
-    bool ok = irb_ism_splat(o->maps, in->scene, o->points, &lights, &settings, err);
-    irb_timer_end(in->timer);
-    ok = ok && irb_ism_coverage(o->maps, &coverage->splatted, err);
-    irb_timer_begin(in->timer, STAGE_PULL_PUSH);
-    ok = ok && irb_ism_pull_push(o->maps, &settings, err);
-    irb_timer_end(in->timer);
-    return ok && irb_ism_coverage(o->maps, &coverage->filled, err);
+    const struct irb_ism_lighting *l = &o->lighting;
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_SPLAT,
+              irb_ism_splat(l->maps, in->scene, l->points, &lights, &settings, err));
+    ok = ok && irb_ism_coverage(l->maps, &coverage->splatted, err);
+    IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->maps, &settings, err));
+    return ok && irb_ism_coverage(l->maps, &coverage->filled, err);
 }
 
 /* Of rasterised maps, whose texels hold the distance of their own ray: what rounding leaves.
@@ -178,39 +177,31 @@ static bool light_raster(struct ism_objects *o, const struct irb_frame_inputs *i
                          const struct irb_virtual_lights *lights,
                          const struct irb_shade_settings *settings, struct irb_error *err)
 {
-    const float near = raster_near * irb_scene_diagonal(in->scene->scene);
-    const int capacity = o->raster->capacity;
-    bool ok = true;
-    /* no lights at all still take one batch, which writes zeros */
-    for (int first = 0; ok && (first == 0 || first < lights->count); first += capacity) {
-        const int rest = lights->count - first;
-        const struct irb_shade_batch batch = {.first = first,
-                                              .count = rest < capacity ? rest : capacity,
-                                              .accumulate = first > 0,
-                                              .raster = o->raster};
-        irb_timer_begin(in->timer, STAGE_RASTER);
-        ok = irb_raster_maps_render(o->raster, in->scene, lights, first, batch.count, near, err);
-        irb_timer_end(in->timer);
-        irb_timer_begin(in->timer, STAGE_LIGHT);
-        ok =
-            ok && irb_shade_run_batch(o->shade, o->interleave, lights, NULL, settings, &batch, err);
-        irb_timer_end(in->timer);
-    }
-    return ok;
+    const struct irb_shade_raster raster = {
+        .maps = o->raster,
+        .scene = in->scene,
+        .near = raster_near * irb_scene_diagonal(in->scene->scene),
+        .timer = in->timer,
+        .maps_stage = STAGE_RASTER,
+        .light_stage = STAGE_LIGHT,
+    };
+    const struct irb_ism_lighting *l = &o->lighting;
+    return irb_shade_run_raster(l->shade, l->interleave, lights, &raster, settings, err);
 }
 
 static bool light(struct ism_objects *o, const struct irb_frame_inputs *in, struct irb_error *err)
 {
     const struct ism_params *p = in->params;
+    const struct irb_ism_lighting *l = &o->lighting;
     const struct irb_virtual_lights lights = irb_vpl_set_view(o->lights);
+    const struct irb_ism *maps = p->visibility == ISM_IMPERFECT ? l->maps : NULL;
     const struct irb_shade_settings settings =
         shade_settings(p, irb_scene_diagonal(in->scene->scene));
+    bool ok = true;
     if (p->visibility == ISM_EXACT_RASTER)
         return light_raster(o, in, &lights, &settings, err);
-    irb_timer_begin(in->timer, STAGE_LIGHT);
-    bool ok = irb_shade_run(o->shade, o->interleave, &lights,
-                            p->visibility == ISM_IMPERFECT ? o->maps : NULL, &settings, err);
-    irb_timer_end(in->timer);
+    IRB_STAGE(ok, in, STAGE_LIGHT,
+              irb_shade_run(l->shade, l->interleave, &lights, maps, &settings, err));
     return ok;
 }
 
@@ -219,18 +210,15 @@ static bool light_tiles(struct ism_objects *o, const struct irb_frame_inputs *in
                         struct irb_error *err)
 {
     const struct ism_params *p = in->params;
+    struct irb_interleave *interleave = o->lighting.interleave;
     const float depth = p->filter_depth * irb_scene_diagonal(in->scene->scene);
-    irb_timer_begin(in->timer, STAGE_SPLIT);
-    bool ok = irb_interleave_split(o->interleave, in->gbuffer, err);
-    irb_timer_end(in->timer);
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(interleave, in->gbuffer, err));
     ok = ok && light(o, in, err);
-    irb_timer_begin(in->timer, STAGE_MERGE);
-    ok = ok && irb_interleave_merge(o->interleave, err);
-    irb_timer_end(in->timer);
-    irb_timer_begin(in->timer, STAGE_FILTER);
-    ok = ok && irb_interleave_filter(o->interleave, in->gbuffer, depth, p->filter_cosine,
-                                     o->irradiance, err);
-    irb_timer_end(in->timer);
+    IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(interleave, err));
+    IRB_STAGE(ok, in, STAGE_FILTER,
+              irb_interleave_filter(interleave, in->gbuffer, depth, p->filter_cosine, o->irradiance,
+                                    err));
     return ok;
 }
 
@@ -244,8 +232,8 @@ static bool debug(struct ism_state *state, bool maps, struct irb_frame_output *o
     if (!irb_shadow_term_draw(state->shadow_term, o->irradiance, err))
         return false;
     if (maps)
-        irb_output_layer(out, "ism-atlas", o->maps->atlas, IRB_DEBUG_DISTANCE);
-    irb_output_layer(out, "split", o->interleave->split, IRB_DEBUG_RADIANCE);
+        irb_output_layer(out, "ism-atlas", o->lighting.maps->atlas, IRB_DEBUG_DISTANCE);
+    irb_output_layer(out, "split", o->lighting.interleave->split, IRB_DEBUG_RADIANCE);
     irb_output_layer(out, "shadow-term", state->shadow_term->image, IRB_DEBUG_SCALAR);
     return true;
 }
@@ -258,13 +246,15 @@ static bool report(struct ism_state *state, const struct irb_frame_inputs *in,
     const struct ism_params *p = in->params;
     struct ism_objects *o = state->objects;
     const bool maps = p->visibility == ISM_IMPERFECT;
-    if (p->clamp > 0 && !irb_shade_lost(o->shade, o->interleave, &out->clamped_light, err))
+    if (p->clamp > 0 &&
+        !irb_shade_lost(o->lighting.shade, o->lighting.interleave, &out->clamped_light, err))
         return false;
     irb_output_statistic(out, "vpls", o->lights->count);
-    if (maps && o->points) {
-        irb_output_statistic(out, "points", (double)o->points->count);
-        irb_output_statistic(out, "point_bytes", (double)o->points->bytes);
-        irb_output_statistic(out, "splats", (double)o->points->count * (double)p->splat_factor);
+    if (maps && o->lighting.points) {
+        irb_output_statistic(out, "points", (double)o->lighting.points->count);
+        irb_output_statistic(out, "point_bytes", (double)o->lighting.points->bytes);
+        irb_output_statistic(out, "splats",
+                             (double)o->lighting.points->count * (double)p->splat_factor);
     }
     if (maps) {
         irb_output_statistic(out, "coverage_splatted", coverage->splatted);
@@ -285,9 +275,8 @@ static bool prepare_points(struct ism_objects *o, const struct irb_frame_inputs 
         return ism_objects_prepare_points(o, p, in->scene, in->seed, err);
     const uint64_t frame = p->redraw_points ? (uint32_t)in->frame : 0;
     const uint64_t seed = in->seed ^ frame << 32;
-    irb_timer_begin(in->timer, STAGE_POINTS);
-    bool ok = ism_objects_prepare_points(o, p, in->scene, seed, err);
-    irb_timer_end(in->timer);
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_POINTS, ism_objects_prepare_points(o, p, in->scene, seed, err));
     return ok;
 }
 
@@ -300,11 +289,11 @@ static bool ism_render_frame(void *user, const struct irb_frame_inputs *in,
     struct coverage coverage = {0};
 
     *out = (struct irb_frame_output){.irradiance = o->irradiance};
-    if (!ism_objects_prepare(o, p, in->rsm->resolution, err) || !prepare_points(o, in, false, err))
+    if (!ism_objects_prepare(o, p, in->scene, in->rsm->resolution, err) ||
+        !prepare_points(o, in, false, err))
         return false;
-    irb_timer_begin(in->timer, STAGE_SAMPLE);
-    bool ok = sample(o, in, err);
-    irb_timer_end(in->timer);
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_SAMPLE, sample(o, in, err));
     ok = ok && prepare_points(o, in, true, err);
     if (p->visibility == ISM_IMPERFECT)
         ok = ok && build_maps(o, in, &coverage, err);

@@ -14,9 +14,7 @@ bool ism_objects_resize(struct ism_objects *o, int width, int height, struct irb
     if (!irradiance)
         return false;
     irb_texture_destroy(o->irradiance);
-    irb_interleave_destroy(o->interleave);
     o->irradiance = irradiance;
-    o->interleave = NULL;
     o->width = width;
     o->height = height;
     return true;
@@ -30,8 +28,8 @@ struct ism_objects *ism_objects_create(struct irb_gl *gl, int width, int height,
         irb_fail(err, IRB_E_MEMORY, "ism: out of memory");
         return NULL;
     }
-    o->gl = gl;
-    if (ism_objects_resize(o, width, height, err) && (o->shade = irb_shade_create(gl, err)))
+    o->gl = o->lighting.gl = gl;
+    if (ism_objects_resize(o, width, height, err))
         return o;
     ism_objects_destroy(o);
     return NULL;
@@ -52,27 +50,26 @@ void ism_objects_destroy(struct ism_objects *o)
     if (!o)
         return;
     irb_texture_destroy(o->irradiance);
-    irb_interleave_destroy(o->interleave);
     destroy_lights(o);
-    irb_points_destroy(o->points);
+    irb_ism_lighting_destroy(&o->lighting);
     free(o->weights);
-    irb_ism_destroy(o->maps);
     irb_raster_maps_destroy(o->raster);
-    irb_shade_destroy(o->shade);
     free(o);
 }
 
-static bool prepare_interleave(struct ism_objects *o, const struct ism_params *p,
-                               struct irb_error *err)
+/* The maps grow with the number of lights and do not shrink. */
+static bool prepare_lighting(struct ism_objects *o, const struct ism_params *p,
+                             const struct irb_scene_gl *scene, struct irb_error *err)
 {
-    /* an image that is narrower has fewer tiles */
-    const int n = p->interleave_n < o->width ? p->interleave_n : o->width;
-    const int m = p->interleave_m < o->height ? p->interleave_m : o->height;
-    if (o->interleave && o->interleave->n == n && o->interleave->m == m)
-        return true;
-    irb_interleave_destroy(o->interleave);
-    o->interleave = irb_interleave_create(o->gl, o->width, o->height, n, m, err);
-    return o->interleave != NULL;
+    const struct irb_ism_lighting_desc desc = {
+        .width = o->width,
+        .height = o->height,
+        .n = p->interleave_n,
+        .m = p->interleave_m,
+        .map_size = ism_map_side(p),
+        .maps = p->visibility == ISM_IMPERFECT ? p->vpls : 0,
+    };
+    return irb_ism_lighting_prepare(&o->lighting, scene, &desc, err);
 }
 
 static bool prepare_lights(struct ism_objects *o, const struct ism_params *p, int rsm_resolution,
@@ -103,54 +100,33 @@ static struct irb_points_desc points_desc_of(const struct ism_params *p, uint64_
     };
 }
 
-static bool same_points(const struct irb_points_desc *a, const struct irb_points_desc *b)
-{
-    return a->kind == b->kind && a->count == b->count && a->seed == b->seed &&
-           a->f_min == b->f_min && a->f_max == b->f_max && a->smoothstep == b->smoothstep;
-}
-
-/* points_desc is left as no other points have it, so that none take these for theirs. */
-static bool make_adaptive_points(struct ism_objects *o, const struct ism_params *p,
-                                 const struct irb_scene_gl *scene, struct irb_points_desc desc,
-                                 struct irb_error *err)
+static bool weigh_points(struct ism_objects *o, const struct ism_params *p,
+                         const struct irb_scene *scene, struct irb_error *err)
 {
     const struct irb_virtual_lights lights = irb_vpl_set_view(o->lights);
-    irb_points_destroy(o->points);
-    o->points = NULL;
-    o->points_desc = (struct irb_points_desc){.count = -1};
     if (!o->weights &&
-        !(o->weights = malloc(((size_t)scene->scene->triangle_count + 1) * sizeof *o->weights)))
+        !(o->weights = malloc(((size_t)scene->triangle_count + 1) * sizeof *o->weights)))
         return irb_fail(err, IRB_E_MEMORY, "ism: out of memory");
-    desc.weights = o->weights;
-    return irb_point_weights(scene->scene, &lights, p->adaptive_points, o->weights, err) &&
-           (o->points = irb_points_create(o->gl, scene, &desc, err));
+    return irb_point_weights(scene, &lights, p->adaptive_points, o->weights, err);
 }
 
 bool ism_objects_prepare_points(struct ism_objects *o, const struct ism_params *p,
                                 const struct irb_scene_gl *scene, uint64_t seed,
                                 struct irb_error *err)
 {
-    const struct irb_points_desc desc = points_desc_of(p, seed);
-    const bool wanted = p->visibility == ISM_IMPERFECT && p->points != ISM_DYNAMIC;
-    if (wanted && ism_adapts_points(p))
-        return make_adaptive_points(o, p, scene, desc, err);
-    if (wanted && o->points && same_points(&desc, &o->points_desc))
+    struct irb_points **points = &o->lighting.points;
+    struct irb_points_desc desc = points_desc_of(p, seed);
+    if (p->visibility != ISM_IMPERFECT || p->points == ISM_DYNAMIC) {
+        irb_points_destroy(*points);
+        *points = NULL;
         return true;
-    irb_points_destroy(o->points);
-    o->points = NULL;
-    o->points_desc = desc;
-    return !wanted || (o->points = irb_points_create(o->gl, scene, &desc, err));
-}
-
-/* The atlas grows with the number of lights and does not shrink. */
-static bool prepare_maps(struct ism_objects *o, const struct ism_params *p, struct irb_error *err)
-{
-    const int side = ism_map_side(p);
-    if (o->maps && o->maps->map_size == side && o->maps->capacity >= p->vpls)
-        return true;
-    irb_ism_destroy(o->maps);
-    o->maps = irb_ism_create(o->gl, side, p->vpls, err);
-    return o->maps != NULL;
+    }
+    if (ism_adapts_points(p)) {
+        if (!weigh_points(o, p, scene->scene, err))
+            return false;
+        desc.weights = o->weights;
+    }
+    return irb_points_prepare(points, o->gl, scene, &desc, err);
 }
 
 /* As many at a time as memory allows. */
@@ -167,10 +143,10 @@ static bool prepare_raster_maps(struct ism_objects *o, const struct ism_params *
     return o->raster != NULL;
 }
 
-bool ism_objects_prepare(struct ism_objects *o, const struct ism_params *p, int rsm_resolution,
+bool ism_objects_prepare(struct ism_objects *o, const struct ism_params *p,
+                         const struct irb_scene_gl *scene, int rsm_resolution,
                          struct irb_error *err)
 {
-    return prepare_interleave(o, p, err) && prepare_lights(o, p, rsm_resolution, err) &&
-           (p->visibility != ISM_IMPERFECT || prepare_maps(o, p, err)) &&
+    return prepare_lighting(o, p, scene, err) && prepare_lights(o, p, rsm_resolution, err) &&
            (p->visibility != ISM_EXACT_RASTER || prepare_raster_maps(o, p, err));
 }

@@ -6,10 +6,8 @@
 #ifndef IRB_METHODS_ISM_OBJECTS_H
 #define IRB_METHODS_ISM_OBJECTS_H
 
-#include "core/frame/interleave.h"
 #include "core/lights/importance.h"
-#include "core/lights/ism.h"
-#include "core/lights/shade.h"
+#include "core/lights/ism_lighting.h"
 #include "core/lights/vpl.h"
 #include "methods/ism/params.h"
 
@@ -17,17 +15,13 @@ struct ism_objects {
     struct irb_gl *gl;              /* borrowed */
     int width, height;              /* of the image */
     struct irb_texture *irradiance; /* RGBA32F: W/m2; share of light in shadow */
-    struct irb_interleave *interleave;
     struct irb_vpl_set *lights;
     struct irb_importance *importance; /* with its pyramid: bidirectional only */
     struct irb_pyramid *pyramid;
-    int rsm_resolution;                 /* that the three above are made for */
-    struct irb_points *points;          /* NULL without maps, and for dynamic points */
-    struct irb_points_desc points_desc; /* of `points` */
-    float *weights;                     /* of adaptive points, a float a triangle; or NULL */
-    struct irb_ism *maps;               /* NULL until there are to be some; likewise the next */
-    struct irb_raster_maps *raster;
-    struct irb_shade *shade;
+    int rsm_resolution;               /* that the three above are made for */
+    struct irb_ism_lighting lighting; /* without points for dynamic ones */
+    float *weights;                   /* of adaptive points, a float a triangle; or NULL */
+    struct irb_raster_maps *raster;   /* NULL until there are to be some */
 };
 
 /* NULL on failure. */
@@ -39,7 +33,8 @@ bool ism_objects_resize(struct ism_objects *objects, int width, int height, stru
 /* Makes what the parameters and the RSM's resolution ask for and is not there, but for the points.
  */
 bool ism_objects_prepare(struct ism_objects *objects, const struct ism_params *params,
-                         int rsm_resolution, struct irb_error *err);
+                         const struct irb_scene_gl *scene, int rsm_resolution,
+                         struct irb_error *err);
 /* Likewise the points. `seed`: of area points. Adaptive ones are made anew for the lights as they
  * are. */
 bool ism_objects_prepare_points(struct ism_objects *objects, const struct ism_params *params,

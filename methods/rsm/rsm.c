@@ -259,16 +259,12 @@ static bool gather_lowres(struct rsm_state *state, const struct irb_frame_inputs
                                     .work = low->work};
     const struct rsm_programs *programs =
         p->mode == MODE_POLAR ? &state->polar->programs : &state->gather;
-    irb_timer_begin(in->timer, STAGE_GATHER);
-    bool ok = gather(state, in, lengths, &grid, err);
-    irb_timer_end(in->timer);
-    irb_timer_begin(in->timer, STAGE_INTERPOLATE);
-    ok = ok && rsm_lowres_interpolate(low, in->gbuffer, &agreement, state->irradiance,
-                                      rsm_programs_group_pixels(programs), err);
-    irb_timer_end(in->timer);
-    irb_timer_begin(in->timer, STAGE_REFINE);
-    ok = ok && gather(state, in, lengths, &rest, err);
-    irb_timer_end(in->timer);
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_GATHER, gather(state, in, lengths, &grid, err));
+    IRB_STAGE(ok, in, STAGE_INTERPOLATE,
+              rsm_lowres_interpolate(low, in->gbuffer, &agreement, state->irradiance,
+                                     rsm_programs_group_pixels(programs), err));
+    IRB_STAGE(ok, in, STAGE_REFINE, gather(state, in, lengths, &rest, err));
     return ok;
 }
 
@@ -277,9 +273,8 @@ static bool gather_full(struct rsm_state *state, const struct irb_frame_inputs *
 {
     const struct rsm_pixels every = {
         .gbuffer = in->gbuffer, .target = state->irradiance, .scale = 1};
-    irb_timer_begin(in->timer, STAGE_GATHER);
-    bool ok = gather(state, in, lengths, &every, err);
-    irb_timer_end(in->timer);
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_GATHER, gather(state, in, lengths, &every, err));
     return ok;
 }
 
@@ -311,9 +306,8 @@ static bool rsm_render_frame(void *user, const struct irb_frame_inputs *in,
     *out = (struct irb_frame_output){.irradiance = state->irradiance};
     if (!prepare_lowres(state, scale, err))
         return false;
-    irb_timer_begin(in->timer, STAGE_SAMPLE);
-    bool ok = sample(state, in, &lengths, err);
-    irb_timer_end(in->timer);
+    bool ok = true;
+    IRB_STAGE(ok, in, STAGE_SAMPLE, sample(state, in, &lengths, err));
     if (!ok)
         return false;
     ok =

@@ -1,25 +1,21 @@
 /* SPDX-License-Identifier: MIT
  *
- * What lights the image with the area lights: the split G-buffer, and where shadows are asked for
- * points of the scene and imperfect shadow maps, or VALs and their maps. Everything is made when a
- * frame first needs it, and anew when a parameter asks for another one.
+ * What lights the image with the area lights: core/lights/ism_lighting.h, or with
+ * visibility=clustered VALs and their maps. Everything is made when a frame first needs it, and
+ * anew when a parameter asks for another one.
  */
 #ifndef IRB_METHODS_RSM_CLUSTERING_LIGHTING_H
 #define IRB_METHODS_RSM_CLUSTERING_LIGHTING_H
 
+#include "core/lights/ism_lighting.h"
 #include "methods/rsm_clustering/params.h"
 
 enum { RSC_MAP_SIZE = 128 }; /* of a shadow map, texels; Ritschel et al. 2008 */
 
 struct rsc_lighting {
-    struct irb_gl *gl;         /* borrowed */
-    struct irb_points *points; /* of point_settings; NULL until imperfect maps are asked for */
-    struct irb_points_desc point_settings;
-    struct irb_ism *ism;   /* likewise */
-    struct irb_vals *vals; /* NULL until visibility=clustered is asked for */
+    struct irb_ism_lighting ism; /* of it only `interleave` with visibility=clustered */
+    struct irb_vals *vals;       /* NULL until visibility=clustered is asked for */
     struct irb_val_lighting val_lighting;
-    struct irb_interleave *interleave;
-    struct irb_shade *shade;
 };
 
 /* All else may be zero. */

@@ -172,15 +172,15 @@ static bool cluster(struct rsc_state *s, const struct irb_frame_inputs *in,
 static bool shade(struct rsc_state *s, const struct irb_frame_inputs *in,
                   const struct rsc_resolved *r, struct irb_error *err)
 {
-    struct rsc_lighting *l = &s->lighting;
+    struct irb_ism_lighting *l = &s->lighting.ism;
     const struct irb_virtual_lights discs = rsc_area_lights_discs(s->lights);
     const struct irb_virtual_lights lights = rsc_area_lights_view(s->lights);
-    const struct irb_ism *maps = rsc_has_ism(r) ? l->ism : NULL;
+    const struct irb_ism *maps = rsc_has_ism(r) ? l->maps : NULL;
     bool ok = true;
     if (maps) {
         IRB_STAGE(ok, in, STAGE_SPLAT,
-                  irb_ism_splat(l->ism, in->scene, l->points, &discs, &r->ism, err));
-        IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->ism, &r->ism, err));
+                  irb_ism_splat(l->maps, in->scene, l->points, &discs, &r->ism, err));
+        IRB_STAGE(ok, in, STAGE_PULL_PUSH, irb_ism_pull_push(l->maps, &r->ism, err));
     }
     IRB_STAGE(ok, in, STAGE_LIGHT,
               irb_shade_run(l->shade, l->interleave, &lights, maps, &r->shade, err));
@@ -195,7 +195,7 @@ static bool shade_clustered(struct rsc_state *s, const struct irb_frame_inputs *
     struct irb_val_lighting *vl = &l->val_lighting;
     const struct irb_val_lighting_settings *settings = &r->val_lighting;
     const struct irb_virtual_lights discs = rsc_area_lights_discs(s->lights);
-    const int tiles = l->interleave->n * l->interleave->m;
+    const int tiles = l->ism.interleave->n * l->ism.interleave->m;
     struct irb_val_batch batch = {.count = -1};
     bool ok = true;
     IRB_STAGE(ok, in, STAGE_CLUSTER,
@@ -207,7 +207,7 @@ static bool shade_clustered(struct rsc_state *s, const struct irb_frame_inputs *
         IRB_STAGE(ok, in, STAGE_BASIS, irb_csm_basis(vl->csm, vl->maps, &settings->csm, err));
         IRB_STAGE(ok, in, STAGE_PREFILTER, irb_csm_prefilter(vl->csm, err));
         IRB_STAGE(ok, in, STAGE_LIGHT,
-                  irb_val_lighting_run(vl, l->interleave, l->vals, settings, &batch, err));
+                  irb_val_lighting_run(vl, l->ism.interleave, l->vals, settings, &batch, err));
     }
     return ok;
 }
@@ -215,13 +215,13 @@ static bool shade_clustered(struct rsc_state *s, const struct irb_frame_inputs *
 static bool light(struct rsc_state *s, const struct irb_frame_inputs *in,
                   const struct rsc_resolved *r, struct irb_error *err)
 {
-    struct rsc_lighting *l = &s->lighting;
+    struct irb_interleave *interleave = s->lighting.ism.interleave;
     bool ok = true;
-    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(l->interleave, in->gbuffer, err));
+    IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(interleave, in->gbuffer, err));
     ok = ok && (r->is_clustered ? shade_clustered(s, in, r, err) : shade(s, in, r, err));
-    IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(l->interleave, err));
+    IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(interleave, err));
     IRB_STAGE(ok, in, STAGE_FILTER,
-              irb_interleave_filter(l->interleave, in->gbuffer, r->filter_depth, r->filter_cosine,
+              irb_interleave_filter(interleave, in->gbuffer, r->filter_depth, r->filter_cosine,
                                     s->irradiance, err));
     return ok;
 }

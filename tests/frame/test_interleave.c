@@ -291,13 +291,35 @@ static void test_refusals(void **state)
     irb_gbuffer_destroy(g);
 }
 
+/* Kept while it would be the same, known by another tile_width; also where the image has fewer
+ * columns than tiles are asked for. */
+static void test_prepare(void **state)
+{
+    (void)state;
+    struct irb_error err = {0};
+    const struct {
+        int width, height, n, m;
+        bool kept;
+    } steps[] = {{7, 5, 3, 2, false}, {7, 5, 3, 2, true},  {8, 5, 3, 2, false}, {8, 6, 3, 2, false},
+                 {8, 6, 2, 2, false}, {8, 6, 2, 3, false}, {2, 6, 4, 3, false}, {2, 6, 4, 3, true}};
+    struct irb_interleave *il = NULL;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        REQUIRE_OK(irb_interleave_prepare(&il, gl, steps[i].width, steps[i].height, steps[i].n,
+                                          steps[i].m, &err));
+        assert_int_equal(il->tile_width < 0, steps[i].kept);
+        il->tile_width = -1;
+    }
+    assert_false(irb_interleave_prepare(&il, gl, 4, 4, 0, 1, &err));
+    assert_null(il);
+}
+
 int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_split_and_merge), cmocka_unit_test(test_filter),
         cmocka_unit_test(test_mosaic),          cmocka_unit_test(test_slim),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals),        cmocka_unit_test(test_prepare),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

@@ -607,6 +607,48 @@ static void test_runs(void **state)
     irb_scene_destroy(scene);
 }
 
+/* Points are kept while they would be the same, known by an area of -1. */
+static void test_prepare(void **state)
+{
+    (void)state;
+    struct irb_error err = {0};
+    struct irb_scene *scene = fixture_scene("cornell");
+    struct irb_scene_gl *scene_gl = irb_scene_gl_create(gl, scene, &err);
+    float *weights = malloc(scene->triangle_count * sizeof *weights);
+    REQUIRE_OK(scene_gl && weights);
+    for (uint32_t t = 0; t < scene->triangle_count; t++)
+        weights[t] = 1;
+    struct irb_points_desc weighted = area_desc(200, 9);
+    weighted.weights = weights;
+    const struct {
+        struct irb_points_desc desc;
+        bool kept;
+    } steps[] = {
+        {area_desc(100, 9), false},
+        {area_desc(100, 9), true},
+        {area_desc(200, 9), false},
+        {area_desc(200, 8), false},
+        {weighted, false},
+        {weighted, false},
+        {area_desc(200, 9), false},
+        {tessellation_desc(2, 4, 3), false},
+        {tessellation_desc(2, 4, 3), true},
+        {tessellation_desc(2, 4, 5), false},
+    };
+    struct irb_points *points = NULL;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        REQUIRE_OK(irb_points_prepare(&points, gl, scene_gl, &steps[i].desc, &err));
+        assert_int_equal(points->area < 0, steps[i].kept);
+        points->area = -1;
+    }
+    const struct irb_points_desc bad = {.kind = IRB_POINTS_AREA, .count = -1};
+    assert_false(irb_points_prepare(&points, gl, scene_gl, &bad, &err));
+    assert_null(points);
+    free(weights);
+    irb_scene_gl_destroy(scene_gl);
+    irb_scene_destroy(scene);
+}
+
 int main(int argc, char **argv)
 {
     gl = fixture_gl(fixture_backend(argc, argv), argc > 2 ? argv[2] : NULL);
@@ -622,6 +664,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_masked),
         cmocka_unit_test(test_follow),
         cmocka_unit_test(test_runs),
+        cmocka_unit_test(test_prepare),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     irb_gl_destroy(gl);

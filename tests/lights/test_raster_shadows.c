@@ -60,8 +60,8 @@ static struct irb_image run(struct job *job, struct shading *s, const struct sha
     struct irb_error err = {0};
     struct irb_buffer *buffer = upload(lights, count);
     const struct irb_virtual_lights view = {buffer, count};
-    REQUIRE_OK(irb_shade_run_raster(s->shade, s->interleave, &view, job->maps, job->scene_gl, 1e-4f,
-                                    settings, &err));
+    const struct irb_shade_raster in_maps = {job->maps, job->scene_gl, .near = 1e-4f};
+    REQUIRE_OK(irb_shade_run_raster(s->shade, s->interleave, &view, &in_maps, settings, &err));
     REQUIRE_OK(irb_interleave_merge(s->interleave, &err));
     struct irb_image image = fixture_read(s->interleave->merged, 4);
     for (size_t i = 0; i < 4 * irb_image_pixels(&image); i++)
@@ -449,8 +449,8 @@ static void test_refusals(void **state)
     REQUIRE_CONTAINS(err.message, "2 shadow maps for 3 lights");
     assert_false(irb_shade_run_batch(shade, s.interleave, &view, NULL, &raster, &no_maps, &err));
     none.visibility = 99;
-    assert_false(
-        irb_shade_run_raster(shade, s.interleave, &view, job.maps, job.scene_gl, 0, &none, &err));
+    const struct irb_shade_raster all = {job.maps, job.scene_gl, .near = 0};
+    assert_false(irb_shade_run_raster(shade, s.interleave, &view, &all, &none, &err));
     assert_int_equal(err.code, IRB_E_INTERNAL);
     irb_buffer_destroy(buffer);
     shading_destroy(&s);
