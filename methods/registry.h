@@ -1,4 +1,8 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * The methods that there are: those built in, which registry.c lists, and those of modules. Names
+ * are unique.
+ */
 #ifndef IRB_METHODS_REGISTRY_H
 #define IRB_METHODS_REGISTRY_H
 

@@ -1,4 +1,7 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * What time it is.
+ */
 #ifndef IRB_BASE_CLOCK_H
 #define IRB_BASE_CLOCK_H
 

@@ -1,4 +1,7 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * A loop over threads.
+ */
 #ifndef IRB_BASE_PARALLEL_H
 #define IRB_BASE_PARALLEL_H
 

@@ -1,4 +1,8 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * The stage prepare: what the reference is made for, and the reference, into the cache. What
+ * the cache has is not traced or written again.
+ */
 #ifndef IRB_EXPERIMENT_PREPARE_H
 #define IRB_EXPERIMENT_PREPARE_H
 

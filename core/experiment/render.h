@@ -1,4 +1,7 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * The stage render: every trial's frames, their times and statistics, into the run's folder.
+ */
 #ifndef IRB_EXPERIMENT_RENDER_H
 #define IRB_EXPERIMENT_RENDER_H
 

@@ -1,4 +1,7 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * The stage score: metrics of the rendered frames against the reference, into the run's database.
+ */
 #ifndef IRB_EXPERIMENT_SCORE_STAGE_H
 #define IRB_EXPERIMENT_SCORE_STAGE_H
 

@@ -1,4 +1,7 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * The scene's light, as shaders have it.
+ */
 #ifndef IRB_FRAME_LIGHT_GL_H
 #define IRB_FRAME_LIGHT_GL_H
 

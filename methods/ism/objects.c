@@ -4,7 +4,6 @@
 #include "core/lights/point_need.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 bool ism_objects_resize(struct ism_objects *o, int width, int height, struct irb_error *err)
 {
