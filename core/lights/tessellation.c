@@ -5,6 +5,13 @@
 
 #include <math.h>
 
+const char *const irb_smoothstep_names[] = {"3", "5", NULL};
+
+int irb_smoothstep_order(int smoothstep)
+{
+    return smoothstep == IRB_SMOOTHSTEP_5 ? 5 : 3;
+}
+
 /* Far above any use (the thesis goes to 64), and still a bounded number of points a triangle. */
 static const double most_factor = 1024;
 

@@ -13,6 +13,11 @@
 
 #include "core/scene/scene.h"
 
+/* What an option chooses, and the order of its polynomial. */
+enum irb_smoothstep { IRB_SMOOTHSTEP_3, IRB_SMOOTHSTEP_5 };
+extern const char *const irb_smoothstep_names[]; /* "3", "5", NULL */
+int irb_smoothstep_order(int smoothstep);
+
 struct irb_tessellation_range {
     double area[2]; /* A_min, A_max, m2; 0, 0 without a triangle that has an area */
     double edge[2]; /* e_min, e_max, m */

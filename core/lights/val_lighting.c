@@ -8,6 +8,13 @@
 enum { GROUP = 8, TILE = 2, SIDE = GROUP * TILE };
 enum { LIGHTS_BINDING = 0, VALS_BINDING = 1, CSM_BINDING = 2, SPLIT_IMAGE = 0, LOST_IMAGE = 1 };
 
+const char *const irb_vals_map_size_names[] = {"64", "128", "256", "512", NULL};
+
+int irb_vals_map_side(int map_size)
+{
+    return 64 << map_size;
+}
+
 void irb_val_lighting_init(struct irb_val_lighting *l, struct irb_gl *gl)
 {
     *l = (struct irb_val_lighting){.gl = gl, .lost.gl = gl};

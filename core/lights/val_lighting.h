@@ -22,6 +22,7 @@
 #define IRB_VALS_DEFAULT_AREA IRB_VALS_AREA_MOMENT
 #define IRB_VALS_DEFAULT_CENTRE IRB_VALS_CENTRE_LIFTED
 #define IRB_VALS_DEFAULT_PROJECTION IRB_RASTER_PARABOLOID
+#define IRB_VALS_DEFAULT_MAP_SIZE IRB_VALS_MAP_256
 #define IRB_VALS_DEFAULT_NEAR 1e-3 /* diagonals of the scene */
 #define IRB_CSM_DEFAULT_ORDER 4
 #define IRB_CSM_DEFAULT_PREFILTER IRB_CSM_MIP
@@ -31,6 +32,11 @@
 #define IRB_CSM_DEFAULT_SEARCH_SCALE 1
 #define IRB_CSM_DEFAULT_PENUMBRA_SCALE 1
 #define IRB_CSM_DEFAULT_DAMPING 0
+
+/* What an option chooses, and texels a side of a map's face. */
+enum irb_vals_map_size { IRB_VALS_MAP_64, IRB_VALS_MAP_128, IRB_VALS_MAP_256, IRB_VALS_MAP_512 };
+extern const char *const irb_vals_map_size_names[]; /* "64", "128", "256", "512", NULL */
+int irb_vals_map_side(int map_size);
 
 struct irb_val_lighting_settings {
     bool visibility; /* false: V = 1, without maps */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "methods/acrsm/params.h"
 
+#include "core/lights/tessellation.h"
 #include "core/sampling/halton.h"
 
 #include <math.h>
@@ -25,7 +26,6 @@ enum { FORM_VAL, FORM_VPL };
 static const char *const form_factors[] = {"val", "vpl", NULL};
 static const char *const visibilities[] = {"none", "ism", "pcss", NULL};
 static const char *const point_kinds[] = {"static", "dynamic", NULL};
-static const char *const smoothsteps[] = {"3", "5", NULL};
 
 #define P struct acrsm_params
 const struct irb_option acrsm_options[] = {
@@ -124,7 +124,7 @@ const struct irb_option acrsm_options[] = {
                     "thesis 5.2, 5.3.2"),
     IRB_OPTION_FLOAT(P, f_min, 5, 1, 64, "", "least tessellation factor", "thesis 6.2: f[5,32]"),
     IRB_OPTION_FLOAT(P, f_max, 32, 1, 64, "", "largest tessellation factor", "thesis 6.2: f[5,32]"),
-    IRB_OPTION_ENUM(P, smoothstep, 0, smoothsteps,
+    IRB_OPTION_ENUM(P, smoothstep, IRB_SMOOTHSTEP_3, irb_smoothstep_names,
                     "order of the polynomial between the least and the largest factor",
                     "thesis eqs 5.3, 5.4"),
     IRB_OPTION_ENUM(P, splatter, AUTO, splatters,
@@ -256,7 +256,7 @@ static struct irb_ism_settings ism_of(const struct acrsm_params *p, bool dynamic
 void acrsm_params_resolve(const struct acrsm_params *p, int rsm_resolution, float diagonal,
                           uint64_t seed, struct acrsm_resolved *out)
 {
-    const int smoothstep = p->smoothstep ? 5 : 3;
+    const int smoothstep = irb_smoothstep_order(p->smoothstep);
     *out = (struct acrsm_resolved){
         .clustering = clustering_of(p, rsm_resolution, diagonal),
         .importance = {.diffuse_weight = p->diffuse_weight,

@@ -8,8 +8,6 @@ enum { UNIT_METRES, UNIT_BBOX };
 static const char *const units[] = {"metres", "bbox", NULL};
 enum { VISIBILITY_NONE, VISIBILITY_CLUSTERED };
 static const char *const visibilities[] = {"none", "clustered", NULL};
-enum { LEAST_MAP = 64, MAP_256 = 2 };
-static const char *const map_sizes[] = {"64", "128", "256", "512", NULL};
 
 #define P struct cv_params
 const struct irb_option cv_options[] = {
@@ -53,8 +51,8 @@ const struct irb_option cv_options[] = {
     IRB_OPTION_ENUM(P, projection, IRB_VALS_DEFAULT_PROJECTION, irb_raster_projection_names,
                     "of the shadow maps; a hemicube's are filtered within one face at a time",
                     "Dong et al. 2009: paraboloid; hemicube: ours"),
-    IRB_OPTION_ENUM(P, map_size, MAP_256, map_sizes, "texels a side of a shadow map's face",
-                    "thesis 3.2.5; value: ours"),
+    IRB_OPTION_ENUM(P, map_size, IRB_VALS_DEFAULT_MAP_SIZE, irb_vals_map_size_names,
+                    "texels a side of a shadow map's face", "thesis 3.2.5; value: ours"),
     IRB_OPTION_FLOAT(
         P, near, IRB_VALS_DEFAULT_NEAR, 0, 1, "",
         "surfaces nearer to a VAL than this share of the scene's diagonal are left out "
@@ -133,7 +131,7 @@ static struct irb_val_lighting_settings lighting_of(const struct cv_params *p, f
     return (struct irb_val_lighting_settings){
         .visibility = p->visibility == VISIBILITY_CLUSTERED,
         .projection = (enum irb_raster_projection)p->projection,
-        .size = LEAST_MAP << p->map_size,
+        .size = irb_vals_map_side(p->map_size),
         .near = p->near * diagonal,
         .order = p->csm_order,
         .prefilter = (enum irb_csm_prefilter)p->csm_prefilter,

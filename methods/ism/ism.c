@@ -129,7 +129,7 @@ static struct irb_ism_settings map_settings(const struct ism_params *p)
         .pull = p->pull,
         .f_min = p->f_min,
         .f_max = p->f_max,
-        .smoothstep = p->smoothstep == ISM_SMOOTHSTEP_5 ? 5 : 3,
+        .smoothstep = irb_smoothstep_order(p->smoothstep),
     };
 }
 
@@ -313,7 +313,7 @@ static bool ism_check(const void *settings, const struct irb_frame_sizes *sizes,
     (void)sizes;
     if (p->visibility != ISM_IMPERFECT || p->points == ISM_AREA)
         return true;
-    const int order = p->smoothstep == ISM_SMOOTHSTEP_5 ? 5 : 3;
+    const int order = irb_smoothstep_order(p->smoothstep);
     return irb_tessellation_check((double)p->f_min, (double)p->f_max, order, err);
 }
 

@@ -2,6 +2,7 @@
 #include "methods/ism/objects.h"
 
 #include "core/lights/point_need.h"
+#include "core/lights/tessellation.h"
 
 #include <stdlib.h>
 
@@ -95,7 +96,7 @@ static struct irb_points_desc points_desc_of(const struct ism_params *p, uint64_
         .kind = IRB_POINTS_TESSELLATION,
         .f_min = p->f_min,
         .f_max = p->f_max,
-        .smoothstep = p->smoothstep == ISM_SMOOTHSTEP_5 ? 5 : 3,
+        .smoothstep = irb_smoothstep_order(p->smoothstep),
     };
 }
 

@@ -3,6 +3,7 @@
 #include "core/frame/interleave.h"
 #include "core/lights/importance.h"
 #include "core/lights/ism.h"
+#include "core/lights/tessellation.h"
 
 static const char *const sequences[] = {"fixed", "random", NULL};
 static const char *const importances[] = {"flux", "bidirectional", NULL};
@@ -10,7 +11,6 @@ static const char *const visibilities[] = {"none", "ism", "exact-raster", NULL};
 static const char *const point_kinds[] = {"area", "tessellation", "dynamic", NULL};
 static const char *const splatters[] = {"atomic", "raster", NULL};
 static const char *const map_sizes[] = {"32", "64", "128", "256", "512", NULL};
-static const char *const smoothsteps[] = {"3", "5", NULL};
 
 #define RITSCHEL_2008 "Ritschel et al. 2008"
 #define RITSCHEL_2011 "Ritschel et al. 2011"
@@ -60,7 +60,7 @@ const struct irb_option ism_options[] = {
                      "tessellation, dynamic: factor of the scene's longest edge and largest "
                      "triangle; with 512 maps the thesis has f[16,64]",
                      "thesis eqs 5.3-5.4, table 6.1"),
-    IRB_OPTION_ENUM(struct ism_params, smoothstep, ISM_SMOOTHSTEP_3, smoothsteps,
+    IRB_OPTION_ENUM(struct ism_params, smoothstep, IRB_SMOOTHSTEP_3, irb_smoothstep_names,
                     "tessellation, dynamic: order of the polynomial between the two factors",
                     "thesis 5.2"),
     IRB_OPTION_ENUM(struct ism_params, splatter, ISM_SPLAT_ATOMIC, splatters,

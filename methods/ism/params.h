@@ -13,7 +13,6 @@ enum ism_visibility { ISM_UNOCCLUDED, ISM_IMPERFECT, ISM_EXACT_RASTER };
 enum ism_points { ISM_AREA, ISM_STATIC, ISM_DYNAMIC };
 enum ism_splatter { ISM_SPLAT_ATOMIC, ISM_SPLAT_RASTER };
 enum ism_map_size { ISM_MAP_32, ISM_MAP_64, ISM_MAP_128, ISM_MAP_256, ISM_MAP_512 };
-enum ism_smoothstep { ISM_SMOOTHSTEP_3, ISM_SMOOTHSTEP_5 };
 
 struct ism_params {
     int vpls;
@@ -27,7 +26,7 @@ struct ism_params {
     bool redraw_points;
     float adaptive_points;
     float f_min, f_max;
-    int smoothstep; /* enum ism_smoothstep */
+    int smoothstep; /* enum irb_smoothstep */
     int splatter;   /* enum ism_splatter */
     float splat_factor, splat_scale;
     int splat_size; /* enum irb_ism_size */

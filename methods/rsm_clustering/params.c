@@ -19,8 +19,6 @@ static const char *const corner_counts[] = {"8", "16", NULL};
 /* Up to `clustered` in the order of enum irb_shade_visibility. */
 enum { VISIBILITY_CLUSTERED = IRB_SHADE_PCSS + 1 };
 static const char *const visibilities[] = {"none", "ism", "pcss", "clustered", NULL};
-enum { LEAST_MAP = 64, MAP_256 = 2 };
-static const char *const map_sizes[] = {"64", "128", "256", "512", NULL};
 
 #define P struct rsc_params
 const struct irb_option rsc_options[] = {
@@ -119,7 +117,7 @@ const struct irb_option rsc_options[] = {
     IRB_OPTION_FLOAT(P, w_a, IRB_VALS_DEFAULT_W_A, 0, 1e6, "1/rad",
                      "clustered: weight of the angle between their normals",
                      "thesis eq. 3.7; value: as clustered-visibility"),
-    IRB_OPTION_ENUM(P, map_size, MAP_256, map_sizes,
+    IRB_OPTION_ENUM(P, map_size, IRB_VALS_DEFAULT_MAP_SIZE, irb_vals_map_size_names,
                     "clustered: texels a side of a VAL's shadow map",
                     "thesis 3.2.5; value: as clustered-visibility"),
     IRB_OPTION_INT(P, csm_order, IRB_CSM_DEFAULT_ORDER, 1, IRB_CSM_ORDER_MOST, "",
@@ -196,7 +194,7 @@ static struct irb_val_lighting_settings val_lighting_of(const struct rsc_params 
         .visibility = true,
         .discs = true,
         .projection = IRB_VALS_DEFAULT_PROJECTION,
-        .size = LEAST_MAP << p->map_size,
+        .size = irb_vals_map_side(p->map_size),
         .near = (float)IRB_VALS_DEFAULT_NEAR * diagonal,
         .order = p->csm_order,
         .prefilter = IRB_CSM_DEFAULT_PREFILTER,
