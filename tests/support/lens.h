@@ -1,4 +1,7 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ *
+ * Overlapping discs, for shadows of round things.
+ */
 #ifndef IRB_TESTS_SUPPORT_LENS_H
 #define IRB_TESTS_SUPPORT_LENS_H
 
