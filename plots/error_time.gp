@@ -22,8 +22,11 @@ stats csv using (scenes = add(scenes, name("scene")), methods = add(methods, nam
                  trials = add(trials, name("trial")), 1) nooutput
 panels = words(scenes)
 
-width = panels > 1 ? 620 * (panels > 2 ? 3 : panels) : 960
-height = 560 * ((panels + 2) / 3)
+# one panel has its key beside it; several share one in a cell of their own
+columns = panels > 1 ? 2 : 1
+rows = panels > 1 ? (panels + 2) / 2 : 1
+width = panels > 1 ? 1160 : 960
+height = panels > 1 ? 420 * rows : 560
 if (out[strlen(out)-2:] eq "png") {
     set terminal pngcairo size width,height font "DejaVu Sans,10"
 } else {
@@ -39,7 +42,7 @@ do for [k=-9:9] {
     do for [d in "1 1.5 2 3 4 5 7"] { set ytics add (sprintf("%g", d * 10.0**k) d * 10.0**k) }
 }
 set grid lt 1 lc rgb "#dddddd"
-set key outside below left Left reverse noenhanced maxcols 2 font ",8"
+set key outside right top Left reverse noenhanced font ",8"
 set autoscale fix
 set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.08
 # Okabe and Ito's palette, safe for colour-blind readers (jfly.uni-koeln.de/color, 2008)
@@ -50,13 +53,22 @@ rank(i) = (sum [j=1:i] of(word(trials, j)) eq of(word(trials, i)))
 method_of(i) = (sum [j=1:words(methods)] of(word(trials, i)) eq word(methods, j) ? j : 0)
 here(scene, trial, value) = strcol("scene") eq scene && strcol("trial") eq trial ? value : NaN
 
-set multiplot layout (panels + 2) / 3, panels > 2 ? 3 : panels
+style(i) = 3 + rank(i)
+shade(i) = colour[(method_of(i) - 1) % 8 + 1]
+
+set multiplot layout rows, columns
+if (panels > 1) { unset key }
 do for [s=1:panels] {
     scene = word(scenes, s)
     set title scene noenhanced
     plot for [i=1:words(trials)] csv \
          using "frame_ms":(here(scene, word(trials, i), column(metric))) \
-         with points pt 3 + rank(i) ps 1.3 lw 2 lc rgb colour[(method_of(i) - 1) % 8 + 1] \
-         title word(trials, i)
+         with points pt style(i) ps 1.3 lw 2 lc rgb shade(i) title word(trials, i)
+}
+if (panels > 1) {
+    unset title; unset xlabel; unset ylabel; unset xtics; unset ytics; unset grid; unset border
+    set key inside left top Left reverse noenhanced font ",9"
+    plot [1:2] [1:2] for [i=1:words(trials)] NaN \
+         with points pt style(i) ps 1.3 lw 2 lc rgb shade(i) title word(trials, i)
 }
 unset multiplot
