@@ -7,7 +7,8 @@
 
 For each scene the error of the curve's trials (one method, all its parameters but one the same) is
 taken over that parameter; where it first falls to the target trial's error is found by linear
-interpolation of log error over log parameter. Intervals are 95 % bootstrap percentiles; the unit of
+interpolation of log error over log parameter, and from where on it stays there, which is later where
+the curve rises again. Intervals are 95 % bootstrap percentiles; the unit of
 resampling is a seed, drawn for curve and target together. Times are interpolated at that number in
 the same way and compared with the target's, as medians over the seeds: whole frame, and the stages
 that --stages names (default: splat and pull-push). Python's standard library is all that it needs.
@@ -51,15 +52,28 @@ def interpolate(xs, ys, x):
     return ys[-1]
 
 
-def crossing(xs, ys, target):
-    """The least x from which on the curve is at or below the target, or infinity; the first x when
-    all of it is."""
+def between(xs, ys, i, target):
+    t = math.log(ys[i - 1] / target) / math.log(ys[i - 1] / ys[i])
+    return xs[i - 1] * (xs[i] / xs[i - 1]) ** t
+
+
+def first(xs, ys, target):
+    """The least x at which the curve is at or below the target, or infinity."""
+    if ys[0] <= target:
+        return xs[0]
+    for i in range(1, len(xs)):
+        if ys[i] <= target:
+            return between(xs, ys, i, target)
+    return math.inf
+
+
+def lasting(xs, ys, target):
+    """The least x from which on it is, up to the last, or infinity."""
     if not ys[-1] <= target:
         return math.inf
     for i in range(len(xs) - 1, 0, -1):
         if ys[i - 1] > target:
-            t = math.log(ys[i - 1] / target) / math.log(ys[i - 1] / ys[i])
-            return xs[i - 1] * (xs[i] / xs[i - 1]) ** t
+            return between(xs, ys, i, target)
     return xs[0]
 
 
@@ -67,7 +81,7 @@ def mean(rows, seeds, column):
     return statistics.fmean(number(rows[seed], column) for seed in seeds)
 
 
-def find(curve, target, seeds, metric):
+def find(crossing, curve, target, seeds, metric):
     xs = sorted(curve)
     return crossing(xs, [mean(curve[x], seeds, metric) for x in xs], mean(target, seeds, metric))
 
@@ -115,9 +129,10 @@ def scene_lines(rows, scene, args, out):
         seeds = sorted(set(target).intersection(*[set(c) for c in curve.values()]))
         xs = sorted(curve)
         for metric in args.metric:
-            lights = find(curve, target, seeds, metric)
+            lights = find(first, curve, target, seeds, metric)
+            stays = find(lasting, curve, target, seeds, metric)
             dice = random.Random(1)
-            drawn = [find(curve, target, [dice.choice(seeds) for _ in seeds], metric)
+            drawn = [find(first, curve, target, [dice.choice(seeds) for _ in seeds], metric)
                      for _ in range(RESAMPLES if len(seeds) > 1 else 0)]
             low, high = ((percentile(drawn, 0.025), percentile(drawn, 0.975)) if drawn
                          else (lights, lights))
@@ -126,6 +141,7 @@ def scene_lines(rows, scene, args, out):
             out.append([scene, metric.replace("indirect_", ""), name,
                         "%.4g" % mean(target, seeds, metric), errors, text(lights, xs),
                         "%s .. %s" % (text(low, xs), text(high, xs)) if drawn else "one seed",
+                        text(stays, xs),
                         "%.2f" % saving(curve, target, reached, args.stages),
                         "%.2f" % saving(curve, target, reached, [])])
 
@@ -144,7 +160,7 @@ def main():
     for scene in dict.fromkeys(row["scene"] for row in rows):
         scene_lines(rows, scene, args, lines)
     head = ["scene", "metric", "target", "its error", "errors of the curve", args.curve[1],
-            "95 %", "stage time x", "frame time x"]
+            "95 %", "from there on", "stage time x", "frame time x"]
     print("| " + " | ".join(head) + " |")
     print("|" + "---|" * len(head))
     for line in lines:
