@@ -112,14 +112,8 @@ static inline void irb_output_layer(struct irb_frame_output *output, const char 
     output->debug[i].kind = kind;
 }
 
-/* Runs a call as a stage of inputs->timer, unless one before it failed: ok is a bool that takes
- * what it returns. */
-#define IRB_STAGE(ok, inputs, stage, call)                                                         \
-    do {                                                                                           \
-        irb_timer_begin((inputs)->timer, stage);                                                   \
-        (ok) = (ok) && (call);                                                                     \
-        irb_timer_end((inputs)->timer);                                                            \
-    } while (0)
+/* IRB_TIMED with the frame's timer. */
+#define IRB_STAGE(ok, inputs, stage, call) IRB_TIMED(ok, (inputs)->timer, stage, call)
 
 struct irb_method {
     int abi;                         /* IRB_METHOD_ABI */

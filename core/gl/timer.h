@@ -23,6 +23,14 @@ void irb_timer_destroy(struct irb_timer *timer);
 void irb_timer_begin(struct irb_timer *timer, int stage);
 void irb_timer_end(struct irb_timer *timer);
 
+/* Runs a call as a stage, unless one before it failed: ok is a bool that takes what it returns. */
+#define IRB_TIMED(ok, timer, stage, call)                                                          \
+    do {                                                                                           \
+        irb_timer_begin(timer, stage);                                                             \
+        (ok) = (ok) && (call);                                                                     \
+        irb_timer_end(timer);                                                                      \
+    } while (0)
+
 /* Ends the frame: writes milliseconds of each stage since the last call (0 where it did not run),
  * waiting for the GPU. */
 void irb_timer_collect(struct irb_timer *timer, double ms[IRB_MAX_STAGES]);

@@ -284,17 +284,15 @@ bool irb_shade_run_raster(struct irb_shade *shade, struct irb_interleave *interl
 {
     struct irb_raster_maps *maps = raster->maps;
     struct irb_shade_batch batch = {.raster = maps};
-    bool ok;
+    bool ok = true;
     do { /* no lights at all still take one batch, which writes zeros */
         batch.count = least(lights->count - batch.first, maps->capacity);
         batch.accumulate = batch.first > 0;
-        irb_timer_begin(raster->timer, raster->maps_stage);
-        ok = irb_raster_maps_render(maps, raster->scene, lights, batch.first, batch.count,
-                                    raster->near, err);
-        irb_timer_end(raster->timer);
-        irb_timer_begin(raster->timer, raster->light_stage);
-        ok = ok && irb_shade_run_batch(shade, interleave, lights, NULL, settings, &batch, err);
-        irb_timer_end(raster->timer);
+        IRB_TIMED(ok, raster->timer, raster->maps_stage,
+                  irb_raster_maps_render(maps, raster->scene, lights, batch.first, batch.count,
+                                         raster->near, err));
+        IRB_TIMED(ok, raster->timer, raster->light_stage,
+                  irb_shade_run_batch(shade, interleave, lights, NULL, settings, &batch, err));
         batch.first += batch.count;
     } while (ok && batch.first < lights->count);
     return ok;

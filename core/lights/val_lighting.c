@@ -185,6 +185,26 @@ bool irb_val_lighting_run(struct irb_val_lighting *l, const struct irb_interleav
     return irb_gl_check(l->gl, "vals: light", err);
 }
 
+bool irb_val_lighting_shade(struct irb_val_lighting *l, const struct irb_scene_gl *scene,
+                            const struct irb_interleave *il, const struct irb_vals *lights,
+                            int vals, const struct irb_val_lighting_settings *s,
+                            struct irb_timer *timer, const struct irb_val_stages *stages,
+                            struct irb_error *err)
+{
+    struct irb_val_batch batch = {.count = -1};
+    bool ok = true;
+    while (ok && irb_val_lighting_next(l, s, vals, &batch)) {
+        if (s->visibility && batch.count > 0) {
+            IRB_TIMED(ok, timer, stages->maps,
+                      irb_val_lighting_maps(l, scene, lights, s, &batch, err));
+            IRB_TIMED(ok, timer, stages->basis, irb_csm_basis(l->csm, l->maps, &s->csm, err));
+            IRB_TIMED(ok, timer, stages->prefilter, irb_csm_prefilter(l->csm, err));
+        }
+        IRB_TIMED(ok, timer, stages->light, irb_val_lighting_run(l, il, lights, s, &batch, err));
+    }
+    return ok;
+}
+
 bool irb_val_lighting_lost(struct irb_val_lighting *l, const struct irb_interleave *il,
                            double *share, struct irb_error *err)
 {

@@ -8,6 +8,7 @@
 #define IRB_LIGHTS_VAL_LIGHTING_H
 
 #include "core/frame/interleave.h"
+#include "core/gl/timer.h"
 #include "core/lights/csm.h"
 #include "core/lights/lost_light.h"
 #include "core/lights/vals.h"
@@ -68,6 +69,20 @@ bool irb_val_lighting_prepare(struct irb_val_lighting *lighting,
                               const struct irb_interleave *interleave,
                               const struct irb_val_lighting_settings *settings, int vals,
                               struct irb_error *err);
+
+/* Stages of a timer (core/gl/timer.h). */
+struct irb_val_stages {
+    int maps, basis, prefilter, light;
+};
+/* All light of `vals` VALs into interleave->split, batch by batch: maps, basis images, their
+ * prefilter, light. A NULL timer times nothing. */
+bool irb_val_lighting_shade(struct irb_val_lighting *lighting, const struct irb_scene_gl *scene,
+                            const struct irb_interleave *interleave, const struct irb_vals *lights,
+                            int vals, const struct irb_val_lighting_settings *settings,
+                            struct irb_timer *timer, const struct irb_val_stages *stages,
+                            struct irb_error *err);
+
+/* ---- its steps ---- */
 
 /* VALs first..first+count-1, those of one batch. */
 struct irb_val_batch {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/lights/vals.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

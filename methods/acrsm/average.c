@@ -8,24 +8,9 @@
 #include "core/frame/light_gl.h"
 
 /* shaders/methods/acrsm/average.comp, tiles.glsl: a bit of a word is a tile. */
-enum { GROUP = 64, TILE_SIDE = 32, WORD = 32, ROWS = TILE_SIDE * TILE_SIDE / GROUP };
+enum { TILE_SIDE = 32, WORD = 32, ROWS = TILE_SIDE * TILE_SIDE / ACRSM_GROUP };
 /* Rounds of loops over the tiles of a word, and words that so fit into a dispatch. */
 enum { WORD_ROUNDS = WORD * (ROWS + 2) + 2, WORDS = IRB_LOOP_ROUNDS_MOST / WORD_ROUNDS };
-
-static bool dispatch_words(struct acrsm_clusters *c, const struct irb_program *program,
-                           struct irb_error *err)
-{
-    const int tiles = (c->resolution + TILE_SIDE - 1) / TILE_SIDE;
-    const int words = (tiles * tiles + WORD - 1) / WORD;
-    if (words > WORDS && !acrsm_prepare_carry(c, err))
-        return false;
-    for (int first = 0; first < words; first += WORDS) {
-        irb_program_int(program, "first_word", first);
-        irb_program_int(program, "end_word", first + WORDS < words ? first + WORDS : words);
-        acrsm_dispatch(c, (int64_t)GROUP * c->active);
-    }
-    return true;
-}
 
 static bool average(struct acrsm_clusters *c, const struct irb_rsm *rsm,
                     const struct irb_light *light, const struct irb_texture *importance,
@@ -33,6 +18,7 @@ static bool average(struct acrsm_clusters *c, const struct irb_rsm *rsm,
 {
     const struct irb_gl_api *api = &c->gl->api;
     const struct irb_program *program = acrsm_program(c, ACRSM_AVERAGE, err);
+    const int tiles = (c->resolution + TILE_SIDE - 1) / TILE_SIDE;
     if (!program)
         return false;
     irb_program_use(program);
@@ -43,7 +29,7 @@ static bool average(struct acrsm_clusters *c, const struct irb_rsm *rsm,
     api->BindTextureUnit((GLuint)unit, c->map->id);
     irb_program_int(program, "cluster_map", unit);
     irb_program_int(program, "second_moment", s->area == ACRSM_AREA_MOMENT);
-    return dispatch_words(c, program, err);
+    return acrsm_dispatch_parts(c, program, (tiles * tiles + WORD - 1) / WORD, WORDS, err);
 }
 
 static bool mark_centres(struct acrsm_clusters *c, struct irb_error *err)

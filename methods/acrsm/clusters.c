@@ -19,7 +19,7 @@ enum {
     LIGHTS_BINDING = 6,
     CARRY_BINDING = 7,
 };
-enum { GROUP = 64, TILE_SIDE = 32 };
+enum { TILE_SIDE = 32 };
 enum { CARRY_BYTES = 64 }; /* of one invocation, at most */
 
 /* For acrsm_cluster.count; shaders/methods/acrsm/cluster.glsl. */
@@ -47,7 +47,6 @@ static const struct {
     [ACRSM_LIGHTS] = {"lights.comp", "FLUX 0"},
     [ACRSM_LIGHTS + 1] = {"lights.comp", "FLUX 1"},
     [ACRSM_LIGHTS + 2] = {"lights.comp", "FLUX 2"},
-    [ACRSM_FLUX_ROWS] = {"flux_rows.comp"},
     [ACRSM_PICTURE] = {"debug.comp", "LAYER 0"},
     [ACRSM_PICTURE + 1] = {"debug.comp", "LAYER 1"},
 };
@@ -95,8 +94,7 @@ static bool create_buffers(struct acrsm_clusters *c, struct irb_error *err)
            (c->candidates =
                 irb_buffer_create(gl, "acrsm: candidates", tiles * (most / 8), NULL, err)) &&
            (c->presence = irb_buffer_create(gl, "acrsm: presence", words * 4 * most, NULL, err)) &&
-           (c->rows =
-                irb_buffer_create(gl, "acrsm: rows", (int64_t)c->resolution * 16, NULL, err)) &&
+           irb_cluster_counter_create(&c->counter, gl, c->resolution, err) &&
            (c->lights =
                 irb_buffer_create(gl, "acrsm: lights", IRB_VPL_BLOCK * IRB_VPL_BYTES, NULL, err));
 }
@@ -134,7 +132,7 @@ void acrsm_clusters_destroy(struct acrsm_clusters *c)
     irb_buffer_destroy(c->lists);
     irb_buffer_destroy(c->candidates);
     irb_buffer_destroy(c->presence);
-    irb_buffer_destroy(c->rows);
+    irb_cluster_counter_destroy(&c->counter);
     irb_buffer_destroy(c->carry);
     free(c);
 }
@@ -208,16 +206,30 @@ void acrsm_barrier(const struct acrsm_clusters *c)
 
 void acrsm_dispatch(const struct acrsm_clusters *c, int64_t invocations)
 {
-    c->gl->api.DispatchCompute((unsigned)((invocations + GROUP - 1) / GROUP), 1, 1);
+    c->gl->api.DispatchCompute((unsigned)((invocations + ACRSM_GROUP - 1) / ACRSM_GROUP), 1, 1);
     acrsm_barrier(c);
 }
 
-bool acrsm_prepare_carry(struct acrsm_clusters *c, struct irb_error *err)
+/* Makes and binds what a pass leaves for its next dispatch. */
+static bool prepare_carry(struct acrsm_clusters *c, struct irb_error *err)
 {
-    const int64_t bytes = (int64_t)ACRSM_CLUSTERS_MOST * GROUP * CARRY_BYTES;
+    const int64_t bytes = (int64_t)ACRSM_CLUSTERS_MOST * ACRSM_GROUP * CARRY_BYTES;
     if (!c->carry && !(c->carry = irb_buffer_create(c->gl, "acrsm: carry", bytes, NULL, err)))
         return false;
     c->gl->api.BindBufferBase(GL_SHADER_STORAGE_BUFFER, CARRY_BINDING, c->carry->id);
+    return true;
+}
+
+bool acrsm_dispatch_parts(struct acrsm_clusters *c, const struct irb_program *program, int parts,
+                          int at_once, struct irb_error *err)
+{
+    if (parts > at_once && !prepare_carry(c, err))
+        return false;
+    for (int first = 0; first < parts; first += at_once) {
+        irb_program_int(program, "first_part", first);
+        irb_program_int(program, "end_part", first + at_once < parts ? first + at_once : parts);
+        acrsm_dispatch(c, ACRSM_GROUP * (int64_t)c->active);
+    }
     return true;
 }
 

@@ -17,6 +17,7 @@
 #ifndef IRB_METHODS_ACRSM_CLUSTERS_H
 #define IRB_METHODS_ACRSM_CLUSTERS_H
 
+#include "core/lights/cluster_census.h"
 #include "core/lights/cluster_map.h"
 #include "core/lights/importance.h"
 #include "core/lights/pyramid.h"
@@ -83,9 +84,8 @@ enum acrsm_program {
     ACRSM_MAP, /* + 2 cover + normals: 4 variants */
     ACRSM_AVERAGE = ACRSM_MAP + 4,
     ACRSM_CENTRES,
-    ACRSM_LIGHTS, /* + flux: 3 variants */
-    ACRSM_FLUX_ROWS = ACRSM_LIGHTS + 3,
-    ACRSM_PICTURE, /* + enum acrsm_picture */
+    ACRSM_LIGHTS,                     /* + flux: 3 variants */
+    ACRSM_PICTURE = ACRSM_LIGHTS + 3, /* + enum acrsm_picture */
     ACRSM_PROGRAMS = ACRSM_PICTURE + 2
 };
 
@@ -101,7 +101,8 @@ struct acrsm_clusters {
     struct irb_buffer *evaluation; /* as many struct acrsm_verification; a random order, uint32 */
     struct irb_buffer *lights;     /* IRB_VPL_BLOCK virtual lights */
     struct irb_buffer *lists;      /* private, as the rest */
-    struct irb_buffer *candidates, *presence, *rows;
+    struct irb_buffer *candidates, *presence;
+    struct irb_cluster_counter counter;
     struct irb_buffer *carry; /* sums that go on in another dispatch; when first asked for */
     struct irb_program *program[ACRSM_PROGRAMS]; /* each made when first asked for */
     enum irb_layout layout;                      /* of the RSM that they read */
@@ -173,9 +174,12 @@ const struct irb_program *acrsm_program(struct acrsm_clusters *clusters, enum ac
 void acrsm_bind_buffers(const struct acrsm_clusters *clusters);
 void acrsm_dispatch(const struct acrsm_clusters *clusters, int64_t invocations);
 void acrsm_barrier(const struct acrsm_clusters *clusters);
-/* Makes and binds what a pass leaves for its next dispatch (core/gl/context.h,
- * IRB_LOOP_ROUNDS_MOST); before a pass of several. */
-bool acrsm_prepare_carry(struct acrsm_clusters *clusters, struct irb_error *err);
+/* A work group of ACRSM_GROUP for each active cluster, in as many dispatches as `parts` parts of
+ * its loops take, at_once in each (core/gl/context.h, IRB_LOOP_ROUNDS_MOST): uniforms first_part
+ * and end_part; sums that go on lie in the shader's buffer `carry`. */
+bool acrsm_dispatch_parts(struct acrsm_clusters *clusters, const struct irb_program *program,
+                          int parts, int at_once, struct irb_error *err);
+enum { ACRSM_GROUP = 64 };
 enum { ACRSM_MERGED_OFFSET = 4 }; /* bytes, in `lists`: merged, split, re-seeded; uint32 */
 uint32_t acrsm_frame_seed(const struct acrsm_clusters *clusters);
 

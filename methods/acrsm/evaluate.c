@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-enum { GROUP = 64 }; /* shaders/methods/acrsm/evaluate.comp */
-
 /* Clusters of the random order that are evaluated; k/3 in whole clusters, as in the thesis, for the
  * share that a float holds of a third. */
 static int selected_of(const struct acrsm_clusters *c, float share)
@@ -16,21 +14,13 @@ static int selected_of(const struct acrsm_clusters *c, float share)
     return count < c->active ? count : c->active;
 }
 
-/* By the map: the square in bands of GROUP rows, one a lane, as many in a dispatch as
- * IRB_LOOP_ROUNDS_MOST lets it. */
+/* By the map: the square in bands of ACRSM_GROUP rows, one a lane. */
 static bool dispatch_bands(struct acrsm_clusters *c, const struct irb_program *program, int side,
                            struct irb_error *err)
 {
     const int width = side < c->resolution ? side : c->resolution;
-    const int bands = (side + GROUP - 1) / GROUP, at_once = IRB_LOOP_ROUNDS_MOST / (width + 2);
-    if (bands > at_once && !acrsm_prepare_carry(c, err))
-        return false;
-    for (int first = 0; first < bands; first += at_once) {
-        irb_program_int(program, "first_band", first);
-        irb_program_int(program, "end_band", first + at_once < bands ? first + at_once : bands);
-        acrsm_dispatch(c, GROUP * (int64_t)c->active);
-    }
-    return true;
+    return acrsm_dispatch_parts(c, program, (side + ACRSM_GROUP - 1) / ACRSM_GROUP,
+                                IRB_LOOP_ROUNDS_MOST / (width + 2), err);
 }
 
 static bool verify(struct acrsm_clusters *c, const struct acrsm_settings *s, struct irb_error *err)

@@ -5,7 +5,6 @@
 #include "methods/acrsm/clusters.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 struct light {
     float position[4], normal[4], flux[4];
@@ -14,33 +13,6 @@ struct light {
 static double mean3(const float v[3])
 {
     return ((double)v[0] + v[1] + v[2]) / 3;
-}
-
-/* Flux of all texels and of those without a cluster, W. */
-static bool sum_rows(struct acrsm_clusters *c, const struct irb_rsm *rsm, double *total,
-                     double *uncovered, struct irb_error *err)
-{
-    const struct irb_gl_api *api = &c->gl->api;
-    const struct irb_program *program = acrsm_program(c, ACRSM_FLUX_ROWS, err);
-    float(*rows)[4] = malloc((size_t)c->rows->bytes);
-    if (!program || !rows) {
-        free(rows);
-        return program ? irb_fail(err, IRB_E_MEMORY, "acrsm: out of memory") : false;
-    }
-    irb_program_use(program);
-    int unit = irb_rsm_bind(rsm, program, 0);
-    api->BindTextureUnit((GLuint)unit, c->map->id);
-    irb_program_int(program, "cluster_map", unit);
-    api->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, c->rows->id);
-    acrsm_dispatch(c, c->resolution);
-    bool ok = irb_buffer_read(c->rows, 0, c->rows->bytes, rows, err);
-    *total = *uncovered = 0;
-    for (int y = 0; ok && y < c->resolution; y++) {
-        *total += rows[y][0];
-        *uncovered += rows[y][1];
-    }
-    free(rows);
-    return ok;
 }
 
 /* Standard deviation over mean; 0 for none. */
@@ -77,10 +49,11 @@ bool acrsm_clusters_report(struct acrsm_clusters *c, const struct irb_rsm *rsm,
     struct acrsm_cluster clusters[ACRSM_CLUSTERS_MOST];
     struct light lights[ACRSM_CLUSTERS_MOST];
     uint32_t lists[3];
-    double total = 0, uncovered = 0, emitted = 0, mapped = 0;
+    struct irb_cluster_census texels;
+    double emitted = 0, mapped = 0;
 
     *out = (struct acrsm_report){0};
-    if (!sum_rows(c, rsm, &total, &uncovered, err) ||
+    if (!irb_cluster_count(&c->counter, rsm, c->map, &texels, err) ||
         !irb_buffer_read(c->state, 0, sizeof clusters, clusters, err) ||
         !irb_buffer_read(c->lights, 0, sizeof lights, lights, err) ||
         !irb_buffer_read(c->lists, ACRSM_MERGED_OFFSET, sizeof lists, lists, err))
@@ -93,8 +66,8 @@ bool acrsm_clusters_report(struct acrsm_clusters *c, const struct irb_rsm *rsm,
     out->merged = (int)lists[0];
     out->split = (int)lists[1];
     out->seeded = (int)lists[2];
-    out->uncovered = total > 0 ? uncovered / total : 0;
-    out->gain = total > 0 ? (emitted - mapped) / total : 0;
+    out->uncovered = texels.flux > 0 ? texels.uncovered_flux / texels.flux : 0;
+    out->gain = texels.flux > 0 ? (emitted - mapped) / texels.flux : 0;
     return true;
 }
 

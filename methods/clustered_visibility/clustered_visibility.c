@@ -134,22 +134,13 @@ static bool cluster(struct cv_state *s, const struct irb_frame_inputs *in,
 static bool light(struct cv_state *s, const struct irb_frame_inputs *in,
                   const struct cv_resolved *r, struct irb_error *err)
 {
-    struct irb_val_lighting *l = &s->lighting;
-    const struct irb_val_lighting_settings *settings = &r->lighting;
+    static const struct irb_val_stages val_stages = {STAGE_MAPS, STAGE_BASIS, STAGE_PREFILTER,
+                                                     STAGE_LIGHT};
     const int vals = s->vals->vpls ? r->clustering.vals : 0;
-    struct irb_val_batch batch = {.count = -1};
     bool ok = true;
     IRB_STAGE(ok, in, STAGE_SPLIT, irb_interleave_split(s->interleave, in->gbuffer, err));
-    while (ok && irb_val_lighting_next(l, settings, vals, &batch)) {
-        if (settings->visibility && batch.count > 0) {
-            IRB_STAGE(ok, in, STAGE_MAPS,
-                      irb_val_lighting_maps(l, in->scene, s->vals, settings, &batch, err));
-            IRB_STAGE(ok, in, STAGE_BASIS, irb_csm_basis(l->csm, l->maps, &settings->csm, err));
-            IRB_STAGE(ok, in, STAGE_PREFILTER, irb_csm_prefilter(l->csm, err));
-        }
-        IRB_STAGE(ok, in, STAGE_LIGHT,
-                  irb_val_lighting_run(l, s->interleave, s->vals, settings, &batch, err));
-    }
+    ok = ok && irb_val_lighting_shade(&s->lighting, in->scene, s->interleave, s->vals, vals,
+                                      &r->lighting, in->timer, &val_stages, err);
     IRB_STAGE(ok, in, STAGE_MERGE, irb_interleave_merge(s->interleave, err));
     IRB_STAGE(ok, in, STAGE_FILTER,
               irb_interleave_filter(s->interleave, in->gbuffer, r->filter_depth, r->filter_cosine,

@@ -10,12 +10,12 @@ const char *const rsc_reduction_names[] = {"sort", "window", "direct", NULL};
 /* Storage bindings and work groups of shaders/methods/rsm_clustering/. */
 enum { CLUSTERS_BINDING = 0, KEYS_BINDING = 1, CARRY_BINDING = 2, LIST_BINDING = 3 };
 enum { CELLS_BINDING = 4 };
-enum { RECORDS_BINDING = 5, ROWS_BINDING = 6 };
-enum { CLUSTER_GROUP = 64, UPDATE_GROUP = 32, TEXEL_GROUP = 8, REORDER_GROUP = 64, ROW_GROUP = 64 };
+enum { RECORDS_BINDING = 5 };
+enum { CLUSTER_GROUP = 64, UPDATE_GROUP = 32, TEXEL_GROUP = 8, REORDER_GROUP = 64 };
 enum { LIST_BYTES = 48, RECORD_BYTES = 48, KEY_BITS = 32 };
 enum { CARRY_BYTES = 17 * 16 }; /* at most: area lights of 16 corners */
 
-enum pass { SEED, LIST, ASSIGN, REORDER, UPDATE_SORTED, UPDATE_DIRECT, COUNT, PASSES };
+enum pass { SEED, LIST, ASSIGN, REORDER, UPDATE_SORTED, UPDATE_DIRECT, PASSES };
 static const struct {
     const char *name, *path, *define;
 } pass_table[PASSES] = {
@@ -25,7 +25,6 @@ static const struct {
     {"rsm-clustering: reorder", "methods/rsm_clustering/reorder.comp", NULL},
     {"rsm-clustering: update", "methods/rsm_clustering/update.comp", "SORTED 1"},
     {"rsm-clustering: update", "methods/rsm_clustering/update.comp", "SORTED 0"},
-    {"rsm-clustering: count", "methods/rsm_clustering/count.comp", NULL},
 };
 
 struct rsc_passes {
@@ -34,7 +33,7 @@ struct rsc_passes {
     struct irb_buffer *cell_keys, *list, *cell_starts; /* of the grid */
     struct irb_buffer *texel_keys, *records;           /* RSC_SORT only */
     struct irb_buffer *carry; /* sums of walks that go on in another dispatch */
-    struct irb_buffer *rows;  /* of the census: a vec4 a row */
+    struct irb_cluster_counter counter;
 };
 
 struct rsc_clusters *rsc_clusters_create(struct irb_gl *gl, int resolution, struct irb_error *err)
@@ -55,8 +54,7 @@ struct rsc_clusters *rsc_clusters_create(struct irb_gl *gl, int resolution, stru
     c->resolution = resolution;
     c->passes = passes;
     if ((c->map = irb_texture_create(gl, &map, err)) && (passes->sort = irb_sort_create(gl, err)) &&
-        (passes->rows =
-             irb_buffer_create(gl, "rsm-clustering: rows", resolution * (int64_t)16, NULL, err)))
+        irb_cluster_counter_create(&passes->counter, gl, resolution, err))
         return c;
     rsc_clusters_destroy(c);
     return NULL;
@@ -78,7 +76,7 @@ void rsc_clusters_destroy(struct rsc_clusters *c)
     irb_buffer_destroy(p->texel_keys);
     irb_buffer_destroy(p->records);
     irb_buffer_destroy(p->carry);
-    irb_buffer_destroy(p->rows);
+    irb_cluster_counter_destroy(&p->counter);
     free(p);
     irb_buffer_destroy(c->clusters);
     irb_texture_destroy(c->map);
@@ -362,35 +360,10 @@ static bool count_clusters(const struct rsc_clusters *c, struct rsc_census *cens
     return ok;
 }
 
-static bool count_texels(const struct rsc_clusters *c, struct rsc_census *census,
-                         struct irb_error *err)
-{
-    const size_t bytes = (size_t)c->resolution * 4 * sizeof(float);
-    float *rows = malloc(bytes);
-    if (!rows)
-        return irb_fail(err, IRB_E_MEMORY, "rsm-clustering: out of memory");
-    bool ok = irb_buffer_read(c->passes->rows, 0, (int64_t)bytes, rows, err);
-    for (size_t i = 0; ok && i < bytes / sizeof(float); i += 4) {
-        census->lit += (int)rows[i];
-        census->uncovered += (int)rows[i + 1];
-        census->flux += rows[i + 2];
-        census->uncovered_flux += rows[i + 3];
-    }
-    free(rows);
-    return ok;
-}
-
 bool rsc_clusters_count(struct rsc_clusters *c, const struct irb_rsm *rsm,
                         struct rsc_census *census, struct irb_error *err)
 {
-    const struct irb_program *program = use_pass(c, COUNT, rsm->layout, err);
-    if (!program)
-        return false;
-    const int unit = irb_rsm_bind(rsm, program, 0);
-    c->gl->api.BindTextureUnit((GLuint)unit, c->map->id);
-    irb_program_int(program, "cluster_map", unit);
-    bind(c, ROWS_BINDING, c->passes->rows);
-    dispatch(c, c->resolution, ROW_GROUP);
     *census = (struct rsc_census){0};
-    return count_texels(c, census, err) && count_clusters(c, census, err);
+    return irb_cluster_count(&c->passes->counter, rsm, c->map, &census->texels, err) &&
+           count_clusters(c, census, err);
 }

@@ -9,6 +9,7 @@
 #define IRB_METHODS_RSM_CLUSTERING_CLUSTERS_H
 
 #include "core/gl/sort.h"
+#include "core/lights/cluster_census.h"
 #include "core/lights/cluster_map.h"
 #include "core/lights/pyramid.h"
 
@@ -96,11 +97,9 @@ void rsc_members_dispatch(const struct rsc_clusters *clusters, const struct irb_
 
 /* What a frame's clustering did. */
 struct rsc_census {
-    int in_use;            /* clusters with texels */
-    int seeded;            /* clusters that were put on a new texel */
-    int lit, uncovered;    /* texels with flux; those of them without a cluster within reach */
-    double flux;           /* W, mean of the channels: of all texels */
-    double uncovered_flux; /* W: of those without a cluster */
+    int in_use; /* clusters with texels */
+    int seeded; /* clusters that were put on a new texel */
+    struct irb_cluster_census texels;
 };
 /* Waits for the GPU. */
 bool rsc_clusters_count(struct rsc_clusters *clusters, const struct irb_rsm *rsm,

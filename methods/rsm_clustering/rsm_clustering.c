@@ -52,9 +52,6 @@ struct rsc_state {
     struct irb_shadow_term *shadow; /* likewise, of the image's size */
 };
 
-/* Tallest debug layer, texels (methods/method.h). */
-enum { TALLEST_LAYER = 16384 };
-
 static void destroy_clustering(struct rsc_state *s)
 {
     irb_importance_destroy(s->importance);
@@ -191,25 +188,18 @@ static bool shade(struct rsc_state *s, const struct irb_frame_inputs *in,
 static bool shade_clustered(struct rsc_state *s, const struct irb_frame_inputs *in,
                             const struct rsc_resolved *r, struct irb_error *err)
 {
+    static const struct irb_val_stages val_stages = {STAGE_MAPS, STAGE_BASIS, STAGE_PREFILTER,
+                                                     STAGE_LIGHT};
     struct rsc_lighting *l = &s->lighting;
-    struct irb_val_lighting *vl = &l->val_lighting;
-    const struct irb_val_lighting_settings *settings = &r->val_lighting;
     const struct irb_virtual_lights discs = rsc_area_lights_discs(s->lights);
     const int tiles = l->ism.interleave->n * l->ism.interleave->m;
-    struct irb_val_batch batch = {.count = -1};
     bool ok = true;
     IRB_STAGE(ok, in, STAGE_CLUSTER,
               irb_vals_cluster(l->vals, &discs, &r->vals, err) &&
                   irb_vals_order(l->vals, &discs, tiles, err));
-    while (ok && irb_val_lighting_next(vl, settings, r->vals.vals, &batch)) {
-        IRB_STAGE(ok, in, STAGE_MAPS,
-                  irb_val_lighting_maps(vl, in->scene, l->vals, settings, &batch, err));
-        IRB_STAGE(ok, in, STAGE_BASIS, irb_csm_basis(vl->csm, vl->maps, &settings->csm, err));
-        IRB_STAGE(ok, in, STAGE_PREFILTER, irb_csm_prefilter(vl->csm, err));
-        IRB_STAGE(ok, in, STAGE_LIGHT,
-                  irb_val_lighting_run(vl, l->ism.interleave, l->vals, settings, &batch, err));
-    }
-    return ok;
+    return ok &&
+           irb_val_lighting_shade(&l->val_lighting, in->scene, l->ism.interleave, l->vals,
+                                  r->vals.vals, &r->val_lighting, in->timer, &val_stages, err);
 }
 
 static bool light(struct rsc_state *s, const struct irb_frame_inputs *in,
@@ -246,16 +236,17 @@ static bool report(struct rsc_state *s, const struct irb_frame_inputs *in,
     struct rsc_census census;
     if (!rsc_clusters_count(s->clusters, in->rsm, &census, err))
         return false;
-    out->uncovered_flux = census.flux > 0 ? census.uncovered_flux / census.flux : 0;
+    const struct irb_cluster_census *texels = &census.texels;
+    out->uncovered_flux = texels->flux > 0 ? texels->uncovered_flux / texels->flux : 0;
     irb_output_statistic(out, "clusters", r->clustering.clusters);
     irb_output_statistic(out, "clusters_in_use", census.in_use);
     irb_output_statistic(out, "seeded", census.seeded);
-    irb_output_statistic(out, "lit_texels", census.lit);
-    irb_output_statistic(out, "lost_texels", census.uncovered);
+    irb_output_statistic(out, "lit_texels", texels->lit);
+    irb_output_statistic(out, "lost_texels", texels->uncovered);
     return !r->is_clustered || report_vals(s, out, err);
 }
 
-/* What is in shadow; the VALs' maps where one layer holds them. */
+/* What is in shadow, and the VALs' maps. */
 static bool draw_shadows(struct rsc_state *s, const struct rsc_resolved *r,
                          struct irb_frame_output *out, struct irb_error *err)
 {
@@ -264,10 +255,9 @@ static bool draw_shadows(struct rsc_state *s, const struct rsc_resolved *r,
     if (!irb_shadow_term_draw(s->shadow, s->irradiance, err))
         return false;
     irb_output_layer(out, "shadow-term", s->shadow->image, IRB_DEBUG_SCALAR);
-    const struct irb_texture *maps =
-        r->is_clustered ? s->lighting.val_lighting.maps->distance : NULL;
-    if (maps && maps->height * (int64_t)maps->layers <= TALLEST_LAYER)
-        irb_output_layer(out, "csm-maps", maps, IRB_DEBUG_DISTANCE);
+    if (r->is_clustered)
+        irb_output_layer(out, "csm-maps", s->lighting.val_lighting.maps->distance,
+                         IRB_DEBUG_DISTANCE);
     return true;
 }
 

@@ -349,7 +349,7 @@ static void test_history(void **state)
         for (int k = 0; k < r.k; k++)
             empty += r.after[k].texels == 0;
         REQUIRE_NEAR(n.in_use, r.k - empty, 0);
-        REQUIRE_REL(n.flux,
+        REQUIRE_REL(n.texels.flux,
                     (fixture_sum(&r.flux, 0) + fixture_sum(&r.flux, 1) + fixture_sum(&r.flux, 2)) /
                         3,
                     1e-5);
@@ -436,11 +436,11 @@ static void test_few_texels(void **state)
                     for (size_t v = 0; v < (size_t)r.k * sizeof *r.after / 4; v++)
                         assert_true(isfinite(values[v]));
                     check_means(&r, &f);
-                    REQUIRE_NEAR(n.lit > 0, kind > 0, 0);
+                    REQUIRE_NEAR(n.texels.lit > 0, kind > 0, 0);
                     REQUIRE_NEAR(n.in_use > 0, kind > 0, 0);
-                    REQUIRE_CMP(n.in_use, <=, n.lit);
+                    REQUIRE_CMP(n.in_use, <=, n.texels.lit);
                     if (kind == 1)
-                        REQUIRE_NEAR(n.uncovered, 0, 0);
+                        REQUIRE_NEAR(n.texels.uncovered, 0, 0);
                     frame_destroy(&r);
                 }
             }

@@ -3,7 +3,7 @@
  * Averaging (thesis 4.7, 5.3.1): position, uv, normal and importance of a cluster become the means
  * over its texels, its flux their sum, its area that of the disc that holds them all. A work group
  * makes one cluster; every sum is taken in a fixed order. Large maps take several dispatches, the
- * words first_word..end_word-1 of the tiles in each (core/gl/context.h, IRB_LOOP_ROUNDS_MOST); all
+ * words first_part..end_part-1 of the tiles in each (core/gl/context.h, IRB_LOOP_ROUNDS_MOST); all
  * but the last leave their sums in `carry` for the next.
  */
 #define GROUP 64
@@ -18,7 +18,7 @@ layout(local_size_x = GROUP) in;
 layout(std430, binding = 0) buffer Clusters { cluster clusters[CLUSTERS_MOST]; };
 layout(std430, binding = 5) readonly buffer Presence { uint presence[]; };
 
-uniform int first_word, end_word;
+uniform int first_part, end_part;
 uniform sampler2D importance;
 uniform usampler2D cluster_map;
 uniform bool second_moment; /* area from the second moment instead of the farthest texel */
@@ -64,10 +64,10 @@ void add_tile(int tile, uint i, vec3 c, ivec2 centre, inout sums sum)
 sums sums_of(uint i, vec3 c, ivec2 centre)
 {
     sums sum = sums(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    if (first_word > 0)
+    if (first_part > 0)
         sum = carry[i * uint(GROUP) + gl_LocalInvocationID.x];
     int words = tile_words(rsm_resolution());
-    for (int word = first_word; word < end_word; word++) {
+    for (int word = first_part; word < end_part; word++) {
         uint mask = presence[i * uint(words) + uint(word)];
         while (mask != 0u) {
             add_tile(32 * word + findLSB(mask), i, c, centre, sum);
@@ -143,7 +143,7 @@ void main()
     bool mapped_to = is_mapped_to(clusters[i].count);
     vec3 c = clusters[i].position;
     ivec2 centre = texel_at(clusters[i].uv, rsm_resolution());
-    bool last = end_word == tile_words(rsm_resolution());
+    bool last = end_part == tile_words(rsm_resolution());
     if (mapped_to)
         partial[gl_LocalInvocationID.x] = sums_of(i, c, centre);
     if (mapped_to && !last)

@@ -6,7 +6,7 @@
  * NEIGHBOURS 0: each invocation goes through the list of clusters.
  * NEIGHBOURS 1: each work group goes through the texels of the square, as the thesis does; the same
  * clusters, at a cost that grows with the square. Large squares take several dispatches, the bands
- * first_band..end_band-1 of GROUP rows in each (core/gl/context.h, IRB_LOOP_ROUNDS_MOST); all but
+ * first_part..end_part-1 of GROUP rows in each (core/gl/context.h, IRB_LOOP_ROUNDS_MOST); all but
  * the last leave their sums in `carry` for the next.
  */
 #include "methods/acrsm/cluster.glsl"
@@ -46,7 +46,7 @@ void put_in_order(uint i)
 }
 
 #if NEIGHBOURS
-uniform int first_band, end_band;
+uniform int first_part, end_part;
 layout(std430, binding = 7) buffer Carry { vec2 carry[]; }; /* GROUP a cluster */
 shared vec2 partial[GROUP];
 
@@ -58,9 +58,9 @@ void main()
     ivec2 low = max(corner, ivec2(0)), high = min(corner + side, ivec2(resolution));
     float most = most_area();
     uint carried = i * uint(GROUP) + gl_LocalInvocationID.x;
-    vec2 sum = first_band > 0 ? carry[carried] : vec2(0.0);
-    int begin = low.y + GROUP * first_band + int(gl_LocalInvocationID.x);
-    int end = min(high.y, low.y + GROUP * end_band);
+    vec2 sum = first_part > 0 ? carry[carried] : vec2(0.0);
+    int begin = low.y + GROUP * first_part + int(gl_LocalInvocationID.x);
+    int end = min(high.y, low.y + GROUP * end_part);
     for (int y = begin; y < end; y += GROUP)
         for (int x = low.x; x < high.x; x++) {
             uint j = texelFetch(cluster_map, ivec2(x, y), 0).g;
@@ -69,11 +69,11 @@ void main()
             float delta = delta_of(clusters[j].area, clusters[j].importance, most);
             sum += vec2(delta * delta, delta);
         }
-    if (GROUP * end_band < side)
+    if (GROUP * end_part < side)
         carry[carried] = sum;
     partial[gl_LocalInvocationID.x] = sum;
     barrier();
-    if (gl_LocalInvocationID.x != 0u || GROUP * end_band < side)
+    if (gl_LocalInvocationID.x != 0u || GROUP * end_part < side)
         return;
     for (int t = 1; t < GROUP; t++)
         sum += partial[t];

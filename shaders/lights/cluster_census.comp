@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Of each row of the cluster map: texels with flux, those of them without a cluster within reach,
- * and the flux of both (W, mean of the channels), summed from left to right.
+ * Of each row of the cluster map: texels that reflect flux, those of them without a cluster, and the
+ * flux of all and of those (W, mean of the channels), summed from left to right.
  */
 layout(local_size_x = 64) in;
 #include "frame/rsm_fetch.glsl"
 #include "lights/cluster_map.glsl"
 
 uniform usampler2D cluster_map;
-layout(std430, binding = 6) writeonly buffer Rows { vec4 rows[]; };
+layout(std430, binding = 0) writeonly buffer Rows { vec4 rows[]; };
 
 void main()
 {
