@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * The lighting of a split G-buffer has the same bits on OSMesa and EGL on llvmpipe, and on one
- * thread and two, whatever visibility it has.
+ * The lighting of a split G-buffer has the same bits (tests/gl/same_bits.h), whatever visibility it
+ * has.
  */
 #include "tests/support/compare.h"
+#include "tests/gl/same_bits.h"
 #include "tests/lights/shade_receivers.h"
 
 enum { WIDTH = 45, HEIGHT = 31, LIGHTS = 40, MAP = 32, VISIBILITIES = 3 };
@@ -32,20 +33,13 @@ static void make(struct receiver *receivers, struct shade_light *lights)
     }
 }
 
-static void render(enum irb_backend backend, const char *threads,
-                   struct irb_image images[VISIBILITIES])
+static void render(struct irb_gl *gl, struct irb_image *images)
 {
     struct irb_error err = {0};
     static struct receiver receivers[WIDTH * HEIGHT];
     struct shade_light lights[LIGHTS];
     struct irb_ism ism;
     struct shading s;
-    setenv("LP_NUM_THREADS", threads, 1); /* llvmpipe reads it for each context */
-    struct irb_gl *gl = fixture_gl(backend, NULL);
-    if (!gl->software) {
-        printf("skipped: %s is no software rasteriser\n", gl->renderer);
-        exit(TEST_SKIPPED);
-    }
     struct irb_shade *shade = irb_shade_create(gl, &err);
     make(receivers, lights);
     struct irb_buffer *buffer = shade_lights_upload(gl, lights, LIGHTS, &err);
@@ -71,36 +65,21 @@ static void render(enum irb_backend backend, const char *threads,
     irb_shade_destroy(shade);
     irb_texture_destroy(ism.atlas);
     irb_buffer_destroy(buffer);
-    assert_int_equal(gl->bytes, 0);
-    irb_gl_destroy(gl);
 }
 
 static void test_same_bits(void **state)
 {
     (void)state;
-    static const struct {
-        enum irb_backend backend;
-        const char *threads;
-    } others[] = {{IRB_BACKEND_OSMESA, "1"}, {IRB_BACKEND_OSMESA, "2"}, {IRB_BACKEND_EGL, "2"}};
-    struct irb_image expected[VISIBILITIES], found[VISIBILITIES];
-    render(IRB_BACKEND_OSMESA, "2", expected);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        render(others[i].backend, others[i].threads, found);
-        for (int v = 0; v < VISIBILITIES; v++) {
-            assert_memory_equal(found[v].data, expected[v].data,
-                                irb_image_pixels(&expected[v]) * 16);
-            irb_image_destroy(&found[v]);
-        }
-    }
+    struct irb_image images[VISIBILITIES];
+    fixture_same_bits(render, images, VISIBILITIES);
     for (int v = 0; v < VISIBILITIES; v++) {
-        REQUIRE_NEAR(fixture_sum(&expected[v], 3) > 0, v > 0, 0); /* shadows where there may be */
-        irb_image_destroy(&expected[v]);
+        REQUIRE_NEAR(fixture_sum(&images[v], 3) > 0, v > 0, 0); /* shadows where there may be */
+        irb_image_destroy(&images[v]);
     }
 }
 
 int main(void)
 {
-    irb_gl_destroy(fixture_gl(IRB_BACKEND_EGL, NULL)); /* skips where it is missing */
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,28 +1,22 @@
 /* SPDX-License-Identifier: MIT
  *
- * clustered-visibility gives the same bits on one thread and two, on OSMesa and EGL, when both are
- * llvmpipe.
+ * clustered-visibility gives the same bits (tests/gl/same_bits.h).
  */
 #include "tests/support/compare.h"
 #include "methods/method.h"
 #include "tests/frame/fixture.h"
+#include "tests/gl/same_bits.h"
 
 extern const struct irb_method irb_method_clustered_visibility;
 static const struct irb_method *const cv = &irb_method_clustered_visibility;
 
 enum { VARIANTS = 2 };
 
-static void render(enum irb_backend backend, const char *threads, struct irb_image images[VARIANTS])
+static void render(struct irb_gl *gl, struct irb_image *images)
 {
     static const char *const prefilters[VARIANTS] = {"mip", "sat"};
     static const char *const projections[VARIANTS] = {"paraboloid", "hemicube"};
     struct irb_error err = {0};
-    setenv("LP_NUM_THREADS", threads, 1); /* llvmpipe reads it for each context */
-    struct irb_gl *gl = fixture_gl(backend, NULL);
-    if (!gl->software) {
-        printf("skipped: %s is no software rasteriser\n", gl->renderer);
-        exit(TEST_SKIPPED);
-    }
     struct fixture_frame f;
     fixture_frame_create(&f, gl, fixture_scene("cornell"), 31, 23, 48);
     fixture_view(f.scene, &f.light, &f.camera);
@@ -49,30 +43,19 @@ static void render(enum irb_backend backend, const char *threads, struct irb_ima
     }
     free(params);
     fixture_frame_destroy(&f);
-    assert_int_equal(gl->bytes, 0);
-    irb_gl_destroy(gl);
 }
 
 static void test_same_bits(void **state)
 {
     (void)state;
-    struct irb_image expected[VARIANTS], found[VARIANTS];
-    render(IRB_BACKEND_OSMESA, "2", expected);
-    for (int other = 0; other < 2; other++) {
-        render(other ? IRB_BACKEND_EGL : IRB_BACKEND_OSMESA, other ? "2" : "1", found);
-        for (int v = 0; v < VARIANTS; v++) {
-            assert_memory_equal(found[v].data, expected[v].data,
-                                irb_image_pixels(&expected[v]) * 16);
-            irb_image_destroy(&found[v]);
-        }
-    }
+    struct irb_image images[VARIANTS];
+    fixture_same_bits(render, images, VARIANTS);
     for (int v = 0; v < VARIANTS; v++)
-        irb_image_destroy(&expected[v]);
+        irb_image_destroy(&images[v]);
 }
 
 int main(void)
 {
-    irb_gl_destroy(fixture_gl(IRB_BACKEND_EGL, NULL)); /* skips where it is missing */
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * rsm-clustering gives the same bits on OSMesa and EGL on llvmpipe, on one thread and two.
+ * rsm-clustering gives the same bits (tests/gl/same_bits.h).
  */
 #include "tests/support/compare.h"
 #include "methods/method.h"
 #include "tests/frame/fixture.h"
+#include "tests/gl/same_bits.h"
 
 extern const struct irb_method irb_method_rsm_clustering;
 static const struct irb_method *const method = &irb_method_rsm_clustering;
@@ -56,14 +57,8 @@ static struct irb_image run(struct irb_gl *gl, const struct fixture_frame *f,
     return image;
 }
 
-static void render(enum irb_backend backend, const char *threads, struct irb_image images[TRIALS])
+static void render(struct irb_gl *gl, struct irb_image *images)
 {
-    setenv("LP_NUM_THREADS", threads, 1); /* llvmpipe reads it for each context */
-    struct irb_gl *gl = fixture_gl(backend, NULL);
-    if (!gl->software) {
-        printf("skipped: %s is no software rasteriser\n", gl->renderer);
-        exit(TEST_SKIPPED);
-    }
     struct fixture_frame f;
     fixture_frame_create(&f, gl, fixture_scene("cornell-objects"), WIDTH, HEIGHT, RESOLUTION);
     fixture_view(f.scene, &f.light, &f.camera);
@@ -71,34 +66,19 @@ static void render(enum irb_backend backend, const char *threads, struct irb_ima
     for (int i = 0; i < TRIALS; i++)
         images[i] = run(gl, &f, trials[i]);
     fixture_frame_destroy(&f);
-    assert_int_equal(gl->bytes, 0);
-    irb_gl_destroy(gl);
 }
 
 static void test_same_bits(void **state)
 {
     (void)state;
-    static const struct {
-        enum irb_backend backend;
-        const char *threads;
-    } others[] = {{IRB_BACKEND_OSMESA, "1"}, {IRB_BACKEND_EGL, "2"}};
-    struct irb_image expected[TRIALS], found[TRIALS];
-    render(IRB_BACKEND_OSMESA, "2", expected);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        render(others[i].backend, others[i].threads, found);
-        for (int k = 0; k < TRIALS; k++) {
-            if (memcmp(found[k].data, expected[k].data, irb_image_pixels(&found[k]) * 16))
-                fail_msg("trial %d differs", k);
-            irb_image_destroy(&found[k]);
-        }
-    }
-    for (int k = 0; k < TRIALS; k++)
-        irb_image_destroy(&expected[k]);
+    struct irb_image images[TRIALS];
+    fixture_same_bits(render, images, TRIALS);
+    for (int i = 0; i < TRIALS; i++)
+        irb_image_destroy(&images[i]);
 }
 
 int main(void)
 {
-    irb_gl_destroy(fixture_gl(IRB_BACKEND_EGL, NULL)); /* skips where it is missing */
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
