@@ -24,16 +24,17 @@ static void append(struct series *series, double value)
     series->values[series->count++] = value;
 }
 
-/* The stage times of one trial as they are read, in order of frames. */
+/* The stage times of one trial as they are read, in order of repeats, then frames; all repeats
+ * count alike. */
 struct timing {
     struct irb_table_data *data;
     struct series *stages; /* one a stage of the data */
     int stage_capacity;
     struct series frames; /* sums over the stages of a frame */
-    int frame;            /* that frames' last sum is for */
+    int repeat, frame;    /* that frames' last sum is for */
 };
 
-static void read_stage(void *user, int frame, const char *name, double ms)
+static void read_stage(void *user, int repeat, int frame, const char *name, double ms)
 {
     struct timing *t = user;
     if (frame < 0 || isnan(ms))
@@ -47,10 +48,11 @@ static void read_stage(void *user, int frame, const char *name, double ms)
             t->stages[t->stage_capacity++] = (struct series){0};
     }
     append(&t->stages[stage], ms);
-    if (!t->frames.count || t->frame != frame)
+    if (!t->frames.count || t->frame != frame || t->repeat != repeat)
         append(&t->frames, 0);
     t->frames.values[t->frames.count - 1] += ms;
     t->frame = frame;
+    t->repeat = repeat;
 }
 
 /* Makes the list `count` long. */
@@ -180,7 +182,7 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         row->metrics[i] = row->spread[i] = NAN;
     bool ok = irb_store_read_scores(store, row->trial->id, read_score, &scored, err) &&
-              irb_store_read_stages(store, row->trial->id, read_stage, &timing, err) &&
+              irb_store_read_times(store, row->trial->id, read_stage, &timing, err) &&
               read_statistics(data, row, store, err);
     struct irb_summary frames = irb_summarise(timing.frames.values, timing.frames.count);
     row->metrics[IRB_METRIC_frame_ms] = frames.median;

@@ -33,9 +33,10 @@ static void see_score(void *user, int frame, const char *name, double value)
     c->last_frame = frame > c->last_frame ? frame : c->last_frame;
 }
 
-static void see_stage(void *user, int frame, const char *name, double value)
+static void see_stage(void *user, int repeat, int frame, const char *name, double value)
 {
     struct columns *c = user;
+    (void)repeat;
     if (frame < 0 || isnan(value))
         return;
     irb_names_index(&c->stages, name);
@@ -53,11 +54,11 @@ static void see_statistic(void *user, int frame, const char *name, double value)
 }
 
 static bool read_trial(struct irb_store *store, int64_t trial, irb_store_value_fn score,
-                       irb_store_value_fn stage, irb_store_value_fn statistic, void *user,
+                       irb_store_time_fn stage, irb_store_value_fn statistic, void *user,
                        struct irb_error *err)
 {
     return irb_store_read_scores(store, trial, score, user, err) &&
-           irb_store_read_stages(store, trial, stage, user, err) &&
+           irb_store_read_times(store, trial, stage, user, err) &&
            irb_store_read_statistics(store, trial, statistic, user, err);
 }
 
@@ -100,6 +101,7 @@ static void destroy_columns(struct columns *c)
 struct series {
     const struct columns *columns;
     double *values; /* [frame][column], NaN where there is none; owned */
+    int *repeats;   /* [frame][column], of stages: how many times the value is the sum of; owned */
 };
 
 static double *cell(const struct series *s, int frame, int column)
@@ -126,14 +128,29 @@ static void fill_score(void *user, int frame, const char *name, double value)
         *to = value;
 }
 
-static void fill_stage(void *user, int frame, const char *name, double value)
+static void fill_stage(void *user, int repeat, int frame, const char *name, double value)
 {
-    double *to = find_cell(user, frame, stage_before, name, stage_behind);
-    double *whole = find_cell(user, frame, "", "frame_ms", "");
-    if (!to || !whole || isnan(value))
+    struct series *s = user;
+    double *to = find_cell(s, frame, stage_before, name, stage_behind);
+    (void)repeat;
+    if (!to || isnan(value))
         return;
-    *to = value;
-    *whole = isnan(*whole) ? value : *whole + value;
+    *to = isnan(*to) ? value : *to + value;
+    s->repeats[to - s->values]++;
+}
+
+/* The frame's times: means over its repeats, and their sum. */
+static void finish_times(const struct series *s, int frame)
+{
+    double *whole = find_cell(s, frame, "", "frame_ms", "");
+    for (int c = 0; whole && c < s->columns->titles.count; c++) {
+        double *value = cell(s, frame, c);
+        int repeats = s->repeats[value - s->values];
+        if (!repeats)
+            continue;
+        *value /= repeats;
+        *whole = isnan(*whole) ? *value : *whole + *value;
+    }
 }
 
 static void fill_statistic(void *user, int frame, const char *name, double value)
@@ -186,13 +203,16 @@ static bool write_trial(const struct columns *columns, struct irb_store *store,
                         struct irb_str *out, struct irb_error *err)
 {
     size_t count = (size_t)(columns->last_frame + 1) * (size_t)columns->titles.count;
-    struct series s = {.columns = columns, .values = malloc((count + 1) * sizeof *s.values)};
-    if (!s.values)
-        return irb_fail(err, IRB_E_MEMORY, "no memory for %zu values of frames", count);
-    for (size_t i = 0; i < count; i++)
+    struct series s = {.columns = columns,
+                       .values = malloc((count + 1) * sizeof *s.values),
+                       .repeats = calloc(count + 1, sizeof *s.repeats)};
+    bool ok = (s.values && s.repeats) ||
+              irb_fail(err, IRB_E_MEMORY, "no memory for %zu values of frames", count);
+    for (size_t i = 0; ok && i < count; i++)
         s.values[i] = NAN;
-    bool ok = read_trial(store, trial->id, fill_score, fill_stage, fill_statistic, &s, err);
+    ok = ok && read_trial(store, trial->id, fill_score, fill_stage, fill_statistic, &s, err);
     for (int frame = 0; ok && frame <= columns->last_frame; frame++) {
+        finish_times(&s, frame);
         if (!has_values(&s, frame))
             continue;
         if (format == IRB_TABLE_CSV)
@@ -200,6 +220,7 @@ static bool write_trial(const struct columns *columns, struct irb_store *store,
         else
             json_frame(&s, trial, frame, out->length == 1, out);
     }
+    free(s.repeats);
     free(s.values);
     return ok;
 }

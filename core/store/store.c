@@ -13,26 +13,45 @@ static const int busy_timeout_ms = 10000;
 /* "irbb" in PRAGMA application_id: tells our databases from other SQLite files. */
 static const int application_id = 0x69726262;
 
+/* What schema 2 has and 1 had not: times of each repeat, and costs. */
+#define STAGE_TIME_SQL                                                                             \
+    "CREATE TABLE stage_time(trial INTEGER NOT NULL, frame INTEGER NOT NULL,"                      \
+    " repeat INTEGER NOT NULL, stage TEXT NOT NULL, ms REAL,"                                      \
+    " PRIMARY KEY(trial, frame, repeat, stage),"                                                   \
+    " FOREIGN KEY(trial, frame) REFERENCES frame(trial, frame) ON DELETE CASCADE) WITHOUT ROWID;"
+#define COST_SQL                                                                                   \
+    "CREATE TABLE cost(trial INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,"             \
+    " name TEXT NOT NULL, value REAL, PRIMARY KEY(trial, name)) WITHOUT ROWID;"
+
 static const char schema_sql[] =
     "CREATE TABLE meta(name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
     "CREATE TABLE trial(id INTEGER PRIMARY KEY, scene TEXT NOT NULL, method TEXT NOT NULL,"
     " trial TEXT NOT NULL, params TEXT NOT NULL, seed INTEGER NOT NULL,"
     " UNIQUE(scene, trial, seed));"
     "CREATE TABLE frame(trial INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,"
-    " frame INTEGER NOT NULL, clock TEXT NOT NULL, PRIMARY KEY(trial, frame)) WITHOUT ROWID;"
-    "CREATE TABLE stage_time(trial INTEGER NOT NULL, frame INTEGER NOT NULL,"
-    " stage TEXT NOT NULL, ms REAL, PRIMARY KEY(trial, frame, stage),"
-    " FOREIGN KEY(trial, frame) REFERENCES frame(trial, frame) ON DELETE CASCADE) WITHOUT ROWID;"
-    "CREATE TABLE statistic(trial INTEGER NOT NULL, frame INTEGER NOT NULL,"
+    " frame INTEGER NOT NULL, clock TEXT NOT NULL, PRIMARY KEY(trial, frame)) WITHOUT "
+    "ROWID;" STAGE_TIME_SQL "CREATE TABLE statistic(trial INTEGER NOT NULL, frame INTEGER NOT NULL,"
     " name TEXT NOT NULL, value REAL, PRIMARY KEY(trial, frame, name),"
     " FOREIGN KEY(trial, frame) REFERENCES frame(trial, frame) ON DELETE CASCADE) WITHOUT ROWID;"
     /* frame -1 is the sequence */
     "CREATE TABLE score(trial INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,"
     " frame INTEGER NOT NULL, metric TEXT NOT NULL, value REAL,"
-    " PRIMARY KEY(trial, frame, metric)) WITHOUT ROWID;"
+    " PRIMARY KEY(trial, frame, metric)) WITHOUT ROWID;" COST_SQL
     /* for people who open the file with sqlite3 */
     "CREATE VIEW result AS SELECT t.scene, t.trial, t.seed, s.frame, s.metric, s.value"
     " FROM score s JOIN trial t ON t.id = s.trial;";
+
+/* Schema 1 becomes 2: all of its times are repeat 0's. */
+static const char migrate_sql[] =
+    "ALTER TABLE stage_time RENAME TO stage_time_1;" STAGE_TIME_SQL
+    "INSERT INTO stage_time SELECT trial, frame, 0, stage, ms FROM stage_time_1;"
+    "DROP TABLE stage_time_1;" COST_SQL "PRAGMA user_version = 2;";
+
+/* Schema 1 as 2 for one reader, who changes no file: temporary names win over the file's. */
+static const char view_sql[] = "PRAGMA temp_store = MEMORY;"
+                               "CREATE TEMP VIEW stage_time AS"
+                               " SELECT trial, frame, 0 AS repeat, stage, ms FROM main.stage_time;"
+                               "CREATE TEMP TABLE cost(trial INTEGER, name TEXT, value REAL);";
 
 /* Every statement, prepared when it is first used and kept. */
 enum statement {
@@ -40,19 +59,23 @@ enum statement {
     GET_META,
     FIND_TRIAL,
     ADD_TRIAL,
-    DROP_FRAME,
     ADD_FRAME,
+    DROP_STAGES,
     ADD_STAGE,
+    DROP_STATISTICS,
     ADD_STATISTIC,
     DROP_SCORES,
     ADD_SCORE,
+    SET_COST,
     HAS_FRAME,
+    HAS_REPEAT,
     HAS_SCORES,
     GET_CLOCK,
     LIST_TRIALS,
     READ_SCORES,
-    READ_STAGES,
+    READ_TIMES,
     READ_STATISTICS,
+    READ_COSTS,
     STATEMENTS
 };
 
@@ -62,22 +85,29 @@ static const char *const statement_sql[STATEMENTS] = {
     [FIND_TRIAL] = "SELECT id, method, params FROM trial"
                    " WHERE scene = ?1 AND trial = ?2 AND seed = ?3",
     [ADD_TRIAL] = "INSERT INTO trial(scene, trial, seed, method, params) VALUES(?1,?2,?3,?4,?5)",
-    [DROP_FRAME] = "DELETE FROM frame WHERE trial = ?1 AND frame = ?2",
-    [ADD_FRAME] = "INSERT INTO frame(trial, frame, clock) VALUES(?1, ?2, ?3)",
-    [ADD_STAGE] = "INSERT INTO stage_time(trial, frame, stage, ms) VALUES(?1, ?2, ?3, ?4)",
+    [ADD_FRAME] = "INSERT INTO frame(trial, frame, clock) VALUES(?1, ?2, ?3)"
+                  " ON CONFLICT(trial, frame) DO UPDATE SET clock = excluded.clock",
+    [DROP_STAGES] = "DELETE FROM stage_time WHERE trial = ?1 AND frame = ?2 AND repeat = ?3",
+    [ADD_STAGE] = "INSERT INTO stage_time(trial, frame, stage, ms, repeat)"
+                  " VALUES(?1, ?2, ?3, ?4, ?5)",
+    [DROP_STATISTICS] = "DELETE FROM statistic WHERE trial = ?1 AND frame = ?2",
     [ADD_STATISTIC] = "INSERT INTO statistic(trial, frame, name, value) VALUES(?1, ?2, ?3, ?4)",
     [DROP_SCORES] = "DELETE FROM score WHERE trial = ?1 AND frame = ?2",
     [ADD_SCORE] = "INSERT INTO score(trial, frame, metric, value) VALUES(?1, ?2, ?3, ?4)",
+    [SET_COST] = "INSERT OR REPLACE INTO cost(trial, name, value) VALUES(?1, ?2, ?3)",
     [HAS_FRAME] = "SELECT 1 FROM frame WHERE trial = ?1 AND frame = ?2",
+    [HAS_REPEAT] = "SELECT 1 FROM stage_time WHERE trial = ?1 AND frame = ?2 AND repeat = ?3"
+                   " LIMIT 1",
     [HAS_SCORES] = "SELECT 1 FROM score WHERE trial = ?1 AND frame = ?2 LIMIT 1",
     [GET_CLOCK] = "SELECT clock FROM frame WHERE trial = ?1 ORDER BY frame LIMIT 1",
     [LIST_TRIALS] = "SELECT id, scene, method, trial, params, seed FROM trial ORDER BY id",
     [READ_SCORES] = "SELECT frame, metric, value FROM score WHERE trial = ?1"
                     " ORDER BY frame, metric",
-    [READ_STAGES] = "SELECT frame, stage, ms FROM stage_time WHERE trial = ?1"
-                    " ORDER BY frame, stage",
+    [READ_TIMES] = "SELECT repeat, frame, stage, ms FROM stage_time WHERE trial = ?1"
+                   " ORDER BY repeat, frame, stage",
     [READ_STATISTICS] = "SELECT frame, name, value FROM statistic WHERE trial = ?1"
                         " ORDER BY frame, name",
+    [READ_COSTS] = "SELECT -1, name, value FROM cost WHERE trial = ?1 ORDER BY name",
 };
 
 struct irb_store {
@@ -134,6 +164,15 @@ static int run_once(sqlite3_stmt *stmt)
     return reset != SQLITE_OK ? reset : result;
 }
 
+/* Ends the transaction: all of it or nothing. */
+static bool finish(struct irb_store *store, bool ok, struct irb_error *err)
+{
+    ok = ok && exec(store, "COMMIT", "write", err);
+    if (!ok)
+        sqlite3_exec(store->db, "ROLLBACK", NULL, NULL, NULL);
+    return ok;
+}
+
 /* ---- opening ---- */
 
 static int pragma_int(struct irb_store *store, const char *sql, int *value)
@@ -156,26 +195,32 @@ static bool create_schema(struct irb_store *store, struct irb_error *err)
     return ok;
 }
 
-/* Tells a new file, one of ours and anything else apart. Runs in a write transaction when it may
- * create, so that two processes cannot both see an empty file. */
-static bool check_schema(struct irb_store *store, bool create, struct irb_error *err)
+/* What a file holds. */
+enum content { REFUSED, NOTHING, THIS_SCHEMA, SCHEMA_1 };
+
+/* Tells a new file, one of ours and anything else apart. */
+static enum content look_at(struct irb_store *store, bool create, struct irb_error *err)
 {
     int id = 0, version = 0, tables = 0;
     if (pragma_int(store, "PRAGMA application_id", &id) != SQLITE_ROW ||
         pragma_int(store, "PRAGMA user_version", &version) != SQLITE_ROW ||
-        pragma_int(store, "SELECT count(*) FROM sqlite_master", &tables) != SQLITE_ROW)
-        return fail(store, "read", err);
+        pragma_int(store, "SELECT count(*) FROM sqlite_master", &tables) != SQLITE_ROW) {
+        fail(store, "read", err);
+        return REFUSED;
+    }
     if (!tables && create)
-        return create_schema(store, err);
+        return NOTHING;
+    if (id == application_id && (version == IRB_STORE_SCHEMA || version == 1))
+        return version == 1 ? SCHEMA_1 : THIS_SCHEMA;
     if (id != application_id)
-        return irb_fail(err, IRB_E_INPUT, "%s: expected results of irbench, found %s", store->path,
-                        tables ? "a database of something else" : "an empty file");
-    if (version != IRB_STORE_SCHEMA)
-        return irb_fail(err, IRB_E_INPUT,
-                        "%s: expected results of schema version %d, found version %d; use another "
-                        "folder, or the irbench that wrote it",
-                        store->path, IRB_STORE_SCHEMA, version);
-    return true;
+        irb_fail(err, IRB_E_INPUT, "%s: expected results of irbench, found %s", store->path,
+                 tables ? "a database of something else" : "an empty file");
+    else
+        irb_fail(err, IRB_E_INPUT,
+                 "%s: expected results of schema version %d, found version %d; use another "
+                 "folder, or the irbench that wrote it",
+                 store->path, IRB_STORE_SCHEMA, version);
+    return REFUSED;
 }
 
 /* Finds damage now, with one clear line, and not in the middle of a run. */
@@ -200,25 +245,33 @@ static bool check_integrity(struct irb_store *store, struct irb_error *err)
     return ok;
 }
 
-static bool prepare_database(struct irb_store *store, bool create, struct irb_error *err)
+static bool open_reading(struct irb_store *store, struct irb_error *err)
 {
-    sqlite3_busy_timeout(store->db, busy_timeout_ms);
-    /* the first statement that reads the file */
-    if (!create)
-        return check_schema(store, false, err) && check_integrity(store, err) &&
-               exec(store, "PRAGMA foreign_keys = ON", "open", err);
+    enum content content = look_at(store, false, err); /* the first to read the file */
+    return content != REFUSED && check_integrity(store, err) &&
+           exec(store, "PRAGMA foreign_keys = ON", "open", err) &&
+           (content != SCHEMA_1 || exec(store, view_sql, "read the tables of version 1", err));
+}
+
+/* In a write transaction, so that two processes cannot both see an empty file, or an old one. */
+static bool prepare_tables(struct irb_store *store, struct irb_error *err)
+{
+    enum content content = look_at(store, true, err);
+    if (content == NOTHING)
+        return create_schema(store, err);
+    return content != REFUSED && check_integrity(store, err) &&
+           (content != SCHEMA_1 || exec(store, migrate_sql, "convert the tables", err));
+}
+
+static bool open_writing(struct irb_store *store, struct irb_error *err)
+{
     /* NORMAL loses nothing when the process is killed, and keeps the file whole if power fails */
     if (!exec(store,
               "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;"
               "PRAGMA foreign_keys = ON; BEGIN IMMEDIATE",
               "open for writing", err))
         return false;
-    bool ok = check_schema(store, true, err) && check_integrity(store, err);
-    if (!ok) {
-        sqlite3_exec(store->db, "ROLLBACK", NULL, NULL, NULL);
-        return false;
-    }
-    return exec(store, "COMMIT", "create the tables", err);
+    return finish(store, prepare_tables(store, err), err);
 }
 
 struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_error *err)
@@ -240,7 +293,9 @@ struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_er
     int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
     bool ok = sqlite3_open_v2(store->path, &store->db, flags, NULL) == SQLITE_OK ||
               fail(store, "open", err);
-    if (!ok || !prepare_database(store, create, err)) {
+    if (ok)
+        sqlite3_busy_timeout(store->db, busy_timeout_ms);
+    if (!ok || !(create ? open_writing(store, err) : open_reading(store, err))) {
         irb_store_close(store);
         return NULL;
     }
@@ -400,19 +455,28 @@ void irb_store_trial_list_destroy(struct irb_store_trial_list *list)
 
 /* ---- frames and scores ---- */
 
+/* `repeat` is bound where the statement has one. */
 static bool drop(struct irb_store *store, enum statement which, int64_t trial, int frame,
-                 struct irb_error *err)
+                 int repeat, struct irb_error *err)
 {
     sqlite3_stmt *stmt = statement(store, which);
     if (!stmt)
         return fail(store, "write", err);
     sqlite3_bind_int64(stmt, 1, trial);
     sqlite3_bind_int(stmt, 2, frame);
+    sqlite3_bind_int(stmt, 3, repeat);
     return run_once(stmt) == SQLITE_DONE || fail(store, "write", err);
 }
 
+static void bind_number(sqlite3_stmt *stmt, int index, double value)
+{
+    if (!isnan(value)) /* else unbound, which is NULL */
+        sqlite3_bind_double(stmt, index, value);
+}
+
 static bool add_values(struct irb_store *store, enum statement which, int64_t trial, int frame,
-                       const struct irb_store_value *values, int count, struct irb_error *err)
+                       int repeat, const struct irb_store_value *values, int count,
+                       struct irb_error *err)
 {
     for (int i = 0; i < count; i++) {
         sqlite3_stmt *stmt = statement(store, which);
@@ -421,8 +485,8 @@ static bool add_values(struct irb_store *store, enum statement which, int64_t tr
         sqlite3_bind_int64(stmt, 1, trial);
         sqlite3_bind_int(stmt, 2, frame);
         bind_text(stmt, 3, values[i].name);
-        if (!isnan(values[i].value)) /* else unbound, which is NULL */
-            sqlite3_bind_double(stmt, 4, values[i].value);
+        bind_number(stmt, 4, values[i].value);
+        sqlite3_bind_int(stmt, 5, repeat);
         if (run_once(stmt) != SQLITE_DONE)
             return fail(store, "write", err);
     }
@@ -441,15 +505,6 @@ static bool add_frame(struct irb_store *store, int64_t trial, int frame, const c
     return run_once(stmt) == SQLITE_DONE || fail(store, "write", err);
 }
 
-/* Ends the transaction: all of it or nothing. */
-static bool finish(struct irb_store *store, bool ok, struct irb_error *err)
-{
-    ok = ok && exec(store, "COMMIT", "write", err);
-    if (!ok)
-        sqlite3_exec(store->db, "ROLLBACK", NULL, NULL, NULL);
-    return ok;
-}
-
 bool irb_store_frame(struct irb_store *store, int64_t trial, int frame, const char *clock,
                      const struct irb_store_value *stage_ms, int stage_count,
                      const struct irb_store_value *statistics, int statistic_count,
@@ -457,11 +512,34 @@ bool irb_store_frame(struct irb_store *store, int64_t trial, int frame, const ch
 {
     if (!exec(store, "BEGIN IMMEDIATE", "write", err))
         return false;
-    bool ok = drop(store, DROP_FRAME, trial, frame, err) &&
-              add_frame(store, trial, frame, clock, err) &&
-              add_values(store, ADD_STAGE, trial, frame, stage_ms, stage_count, err) &&
-              add_values(store, ADD_STATISTIC, trial, frame, statistics, statistic_count, err);
+    bool ok = add_frame(store, trial, frame, clock, err) &&
+              drop(store, DROP_STAGES, trial, frame, 0, err) &&
+              drop(store, DROP_STATISTICS, trial, frame, 0, err) &&
+              add_values(store, ADD_STAGE, trial, frame, 0, stage_ms, stage_count, err) &&
+              add_values(store, ADD_STATISTIC, trial, frame, 0, statistics, statistic_count, err);
     return finish(store, ok, err);
+}
+
+bool irb_store_repeat(struct irb_store *store, int64_t trial, int repeat, int frame,
+                      const struct irb_store_value *stage_ms, int count, struct irb_error *err)
+{
+    if (!exec(store, "BEGIN IMMEDIATE", "write", err))
+        return false;
+    bool ok = drop(store, DROP_STAGES, trial, frame, repeat, err) &&
+              add_values(store, ADD_STAGE, trial, frame, repeat, stage_ms, count, err);
+    return finish(store, ok, err);
+}
+
+bool irb_store_cost(struct irb_store *store, int64_t trial, const char *name, double value,
+                    struct irb_error *err)
+{
+    sqlite3_stmt *stmt = statement(store, SET_COST);
+    if (!stmt)
+        return fail(store, "write", err);
+    sqlite3_bind_int64(stmt, 1, trial);
+    bind_text(stmt, 2, name);
+    bind_number(stmt, 3, value);
+    return run_once(stmt) == SQLITE_DONE || fail(store, "write", err);
 }
 
 bool irb_store_scores(struct irb_store *store, int64_t trial, int frame,
@@ -469,18 +547,19 @@ bool irb_store_scores(struct irb_store *store, int64_t trial, int frame,
 {
     if (!exec(store, "BEGIN IMMEDIATE", "write", err))
         return false;
-    bool ok = drop(store, DROP_SCORES, trial, frame, err) &&
-              add_values(store, ADD_SCORE, trial, frame, metrics, count, err);
+    bool ok = drop(store, DROP_SCORES, trial, frame, 0, err) &&
+              add_values(store, ADD_SCORE, trial, frame, 0, metrics, count, err);
     return finish(store, ok, err);
 }
 
-static bool has(struct irb_store *store, enum statement which, int64_t trial, int frame)
+static bool has(struct irb_store *store, enum statement which, int64_t trial, int frame, int repeat)
 {
     sqlite3_stmt *stmt = statement(store, which);
     if (!stmt)
         return false;
     sqlite3_bind_int64(stmt, 1, trial);
     sqlite3_bind_int(stmt, 2, frame);
+    sqlite3_bind_int(stmt, 3, repeat);
     return run_once(stmt) == SQLITE_ROW;
 }
 
@@ -497,12 +576,23 @@ char *irb_store_clock(struct irb_store *store, int64_t trial)
 
 bool irb_store_has_frame(struct irb_store *store, int64_t trial, int frame)
 {
-    return has(store, HAS_FRAME, trial, frame);
+    return has(store, HAS_FRAME, trial, frame, 0);
+}
+
+bool irb_store_has_repeat(struct irb_store *store, int64_t trial, int repeat, int frame)
+{
+    return has(store, HAS_REPEAT, trial, frame, repeat);
 }
 
 bool irb_store_has_scores(struct irb_store *store, int64_t trial, int frame)
 {
-    return has(store, HAS_SCORES, trial, frame);
+    return has(store, HAS_SCORES, trial, frame, 0);
+}
+
+static double column_number(sqlite3_stmt *stmt, int column)
+{
+    return sqlite3_column_type(stmt, column) == SQLITE_NULL ? NAN
+                                                            : sqlite3_column_double(stmt, column);
 }
 
 static bool read_values(struct irb_store *store, enum statement which, int64_t trial,
@@ -515,7 +605,7 @@ static bool read_values(struct irb_store *store, enum statement which, int64_t t
     int result;
     while ((result = sqlite3_step(stmt)) == SQLITE_ROW)
         fn(user, sqlite3_column_int(stmt, 0), (const char *)sqlite3_column_text(stmt, 1),
-           sqlite3_column_type(stmt, 2) == SQLITE_NULL ? NAN : sqlite3_column_double(stmt, 2));
+           column_number(stmt, 2));
     bool ok = result == SQLITE_DONE || fail(store, "read", err);
     sqlite3_reset(stmt);
     return ok;
@@ -527,14 +617,30 @@ bool irb_store_read_scores(struct irb_store *store, int64_t trial, irb_store_val
     return read_values(store, READ_SCORES, trial, fn, user, err);
 }
 
-bool irb_store_read_stages(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
-                           void *user, struct irb_error *err)
+bool irb_store_read_times(struct irb_store *store, int64_t trial, irb_store_time_fn fn, void *user,
+                          struct irb_error *err)
 {
-    return read_values(store, READ_STAGES, trial, fn, user, err);
+    sqlite3_stmt *stmt = statement(store, READ_TIMES);
+    if (!stmt)
+        return fail(store, "read", err);
+    sqlite3_bind_int64(stmt, 1, trial);
+    int result;
+    while ((result = sqlite3_step(stmt)) == SQLITE_ROW)
+        fn(user, sqlite3_column_int(stmt, 0), sqlite3_column_int(stmt, 1),
+           (const char *)sqlite3_column_text(stmt, 2), column_number(stmt, 3));
+    bool ok = result == SQLITE_DONE || fail(store, "read", err);
+    sqlite3_reset(stmt);
+    return ok;
 }
 
 bool irb_store_read_statistics(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
                                void *user, struct irb_error *err)
 {
     return read_values(store, READ_STATISTICS, trial, fn, user, err);
+}
+
+bool irb_store_read_costs(struct irb_store *store, int64_t trial, irb_store_value_fn fn, void *user,
+                          struct irb_error *err)
+{
+    return read_values(store, READ_COSTS, trial, fn, user, err);
 }

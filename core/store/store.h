@@ -11,13 +11,16 @@
 
 #include <stdint.h>
 
-#define IRB_STORE_SCHEMA 1
+#define IRB_STORE_SCHEMA 2
 
 struct irb_store;
 
 /* Opens RUN/results.sqlite, creating folder and tables when `create`. IRB_E_INPUT for a missing or
  * damaged file, another schema version or a database of something else; IRB_E_IO for what the
- * system refuses. */
+ * system refuses.
+ * A file of schema 1 (times without repeats, no costs) is converted, in one transaction, when it is
+ * opened with `create`; else it is left alone and read as if it were: its times are repeat 0's,
+ * and neither repeats nor costs can be stored. */
 struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_error *err);
 void irb_store_close(struct irb_store *store);
 
@@ -41,12 +44,20 @@ struct irb_store_value {
     double value; /* NaN is stored as NULL */
 };
 
-/* One rendered frame: stage times in ms under "clock", statistics. Replaces an earlier row (its
- * scores stay). */
+/* One rendered frame: stage times in ms under "clock", as repeat 0's; statistics. Replaces an
+ * earlier row (its scores and its repeats stay). */
 bool irb_store_frame(struct irb_store *store, int64_t trial, int frame, const char *clock,
                      const struct irb_store_value *stage_ms, int stage_count,
                      const struct irb_store_value *statistics, int statistic_count,
                      struct irb_error *err);
+/* Stage times of a frame rendered once more, repeat >= 1; the frame itself must be there. */
+bool irb_store_repeat(struct irb_store *store, int64_t trial, int repeat, int frame,
+                      const struct irb_store_value *stage_ms, int count, struct irb_error *err);
+/* Whether there are times of that repeat; of repeat 0 as well. */
+bool irb_store_has_repeat(struct irb_store *store, int64_t trial, int repeat, int frame);
+/* What the trial pays once, before frame 0: "create_ms", "settle_ms". Replaces. */
+bool irb_store_cost(struct irb_store *store, int64_t trial, const char *name, double value,
+                    struct irb_error *err);
 /* The clock of the trial's first frame that has one, malloc'ed; NULL where nothing is rendered. */
 char *irb_store_clock(struct irb_store *store, int64_t trial);
 /* Whether the frame has been rendered / scored. */
@@ -75,10 +86,15 @@ void irb_store_trial_list_destroy(struct irb_store_trial_list *list);
 typedef void (*irb_store_value_fn)(void *user, int frame, const char *name, double value);
 bool irb_store_read_scores(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
                            void *user, struct irb_error *err);
-/* Likewise for stage times (ms); and for a frame's statistics. */
-bool irb_store_read_stages(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
-                           void *user, struct irb_error *err);
+/* Likewise for a frame's statistics; and for costs, whose frame is -1. */
 bool irb_store_read_statistics(struct irb_store *store, int64_t trial, irb_store_value_fn fn,
                                void *user, struct irb_error *err);
+bool irb_store_read_costs(struct irb_store *store, int64_t trial, irb_store_value_fn fn, void *user,
+                          struct irb_error *err);
+
+/* Calls fn for each stage's time, ordered by repeat, frame, stage. */
+typedef void (*irb_store_time_fn)(void *user, int repeat, int frame, const char *stage, double ms);
+bool irb_store_read_times(struct irb_store *store, int64_t trial, irb_store_time_fn fn, void *user,
+                          struct irb_error *err);
 
 #endif

@@ -73,6 +73,14 @@ static void collect(void *user, int frame, const char *name, double value)
     v->values[v->count++] = value;
 }
 
+/* Of times: the repeat and the stage as one name, "0/gather". */
+static void collect_time(void *user, int repeat, int frame, const char *name, double value)
+{
+    char both[32];
+    snprintf(both, sizeof both, "%d/%s", repeat, name);
+    collect(user, frame, both, value);
+}
+
 static void require_value(const struct values *v, int index, int frame, const char *name,
                           double value)
 {
@@ -141,11 +149,11 @@ static void test_round_trip(void **state)
     require_value(&v, 2, 0, "bias", -3e-8);
     require_value(&v, 3, 0, "rmse", 0.1);
     v = (struct values){0};
-    REQUIRE_OK(irb_store_read_stages(store, trial, collect, &v, &err));
+    REQUIRE_OK(irb_store_read_times(store, trial, collect_time, &v, &err));
     assert_int_equal(v.count, 4);
-    require_value(&v, 0, 0, "filter", 1e-3);
-    require_value(&v, 1, 0, "gather", 4.25);
-    require_value(&v, 3, 1, "gather", 4.25);
+    require_value(&v, 0, 0, "0/filter", 1e-3);
+    require_value(&v, 1, 0, "0/gather", 4.25);
+    require_value(&v, 3, 1, "0/gather", 4.25);
     v = (struct values){0};
     REQUIRE_OK(irb_store_read_statistics(store, trial, collect, &v, &err));
     require_value(&v, 0, 0, "uncovered_flux", NAN);
@@ -186,9 +194,9 @@ static void test_replacing(void **state)
     const struct irb_store_value stage[] = {{"other", 2}};
     REQUIRE_OK(irb_store_frame(store, trial, 0, "gl-query", stage, 1, NULL, 0, &err));
     struct values v = {0};
-    REQUIRE_OK(irb_store_read_stages(store, trial, collect, &v, &err));
+    REQUIRE_OK(irb_store_read_times(store, trial, collect_time, &v, &err));
     assert_int_equal(v.count, 3);
-    require_value(&v, 0, 0, "other", 2);
+    require_value(&v, 0, 0, "0/other", 2);
     v = (struct values){0};
     REQUIRE_OK(irb_store_read_statistics(store, trial, collect, &v, &err));
     assert_int_equal(v.count, 2); /* frame 1's */
@@ -209,9 +217,52 @@ static void test_all_or_nothing(void **state)
     assert_false(irb_store_frame(store, 99, 0, "gl-query", twice, 1, NULL, 0, &err));
     assert_non_null(strstr(err.message, "FOREIGN KEY"));
     struct values v = {0};
-    REQUIRE_OK(irb_store_read_stages(store, trial, collect, &v, &err));
+    REQUIRE_OK(irb_store_read_times(store, trial, collect_time, &v, &err));
     assert_int_equal(v.count, 4);
-    require_value(&v, 1, 0, "gather", 4.25);
+    require_value(&v, 1, 0, "0/gather", 4.25);
+    irb_store_close(store);
+}
+
+static void test_repeats_and_costs(void **state)
+{
+    struct irb_error err = {0};
+    int64_t trial;
+    struct irb_store *store = open_or_fail(*state, true);
+    fill(store, &trial);
+    const struct irb_store_value again[] = {{"gather", 5}, {"filter", NAN}};
+    assert_true(irb_store_has_repeat(store, trial, 0, 1));
+    assert_false(irb_store_has_repeat(store, trial, 2, 1));
+    REQUIRE_OK(irb_store_repeat(store, trial, 2, 1, again, 2, &err));
+    REQUIRE_OK(irb_store_repeat(store, trial, 1, 1, again, 1, &err));
+    REQUIRE_OK(irb_store_repeat(store, trial, 1, 0, again, 1, &err));
+    REQUIRE_OK(irb_store_repeat(store, trial, 1, 0, again, 1, &err)); /* replaces */
+    assert_true(irb_store_has_repeat(store, trial, 2, 1));
+    assert_false(irb_store_has_repeat(store, trial, 2, 0));
+    /* of a frame that is not there */
+    assert_false(irb_store_repeat(store, trial, 1, 2, again, 1, &err));
+    assert_non_null(strstr(err.message, "FOREIGN KEY"));
+    /* repeats outlive a frame that is rendered again */
+    const struct irb_store_value stage[] = {{"other", 2}};
+    REQUIRE_OK(irb_store_frame(store, trial, 0, "gl-query", stage, 1, NULL, 0, &err));
+    struct values v = {0};
+    REQUIRE_OK(irb_store_read_times(store, trial, collect_time, &v, &err));
+    assert_int_equal(v.count, 7);
+    require_value(&v, 0, 0, "0/other", 2);
+    require_value(&v, 2, 1, "0/gather", 4.25);
+    require_value(&v, 3, 0, "1/gather", 5);
+    require_value(&v, 4, 1, "1/gather", 5);
+    require_value(&v, 5, 1, "2/filter", NAN);
+    require_value(&v, 6, 1, "2/gather", 5);
+
+    REQUIRE_OK(irb_store_cost(store, trial, "settle_ms", 3, &err));
+    REQUIRE_OK(irb_store_cost(store, trial, "create_ms", 8, &err));
+    REQUIRE_OK(irb_store_cost(store, trial, "create_ms", 7.5, &err));
+    v = (struct values){0};
+    REQUIRE_OK(irb_store_read_costs(store, trial, collect, &v, &err));
+    assert_int_equal(v.count, 2);
+    require_value(&v, 0, -1, "create_ms", 7.5);
+    require_value(&v, 1, -1, "settle_ms", 3);
+    assert_false(irb_store_cost(store, 99, "create_ms", 1, &err));
     irb_store_close(store);
 }
 
@@ -278,8 +329,132 @@ static void test_other_schema(void **state)
     const struct fixture *f = *state;
     irb_store_close(open_or_fail(f, true));
     execute(f, "PRAGMA user_version = 99");
-    expect_refusal(f->run, false, IRB_E_INPUT, f->file, "schema version 1, found version 99");
-    expect_refusal(f->run, true, IRB_E_INPUT, f->file, "schema version 1, found version 99");
+    expect_refusal(f->run, false, IRB_E_INPUT, f->file, "schema version 2, found version 99");
+    expect_refusal(f->run, true, IRB_E_INPUT, f->file, "schema version 2, found version 99");
+}
+
+/* A run as irbench 0.1 left it: the tables of schema 1, as they stood there. */
+static const char schema_1[] =
+    "PRAGMA journal_mode = WAL;"
+    "CREATE TABLE meta(name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+    "CREATE TABLE trial(id INTEGER PRIMARY KEY, scene TEXT NOT NULL, method TEXT NOT NULL,"
+    " trial TEXT NOT NULL, params TEXT NOT NULL, seed INTEGER NOT NULL,"
+    " UNIQUE(scene, trial, seed));"
+    "CREATE TABLE frame(trial INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,"
+    " frame INTEGER NOT NULL, clock TEXT NOT NULL, PRIMARY KEY(trial, frame)) WITHOUT ROWID;"
+    "CREATE TABLE stage_time(trial INTEGER NOT NULL, frame INTEGER NOT NULL,"
+    " stage TEXT NOT NULL, ms REAL, PRIMARY KEY(trial, frame, stage),"
+    " FOREIGN KEY(trial, frame) REFERENCES frame(trial, frame) ON DELETE CASCADE) WITHOUT ROWID;"
+    "CREATE TABLE statistic(trial INTEGER NOT NULL, frame INTEGER NOT NULL,"
+    " name TEXT NOT NULL, value REAL, PRIMARY KEY(trial, frame, name),"
+    " FOREIGN KEY(trial, frame) REFERENCES frame(trial, frame) ON DELETE CASCADE) WITHOUT ROWID;"
+    "CREATE TABLE score(trial INTEGER NOT NULL REFERENCES trial(id) ON DELETE CASCADE,"
+    " frame INTEGER NOT NULL, metric TEXT NOT NULL, value REAL,"
+    " PRIMARY KEY(trial, frame, metric)) WITHOUT ROWID;"
+    "CREATE VIEW result AS SELECT t.scene, t.trial, t.seed, s.frame, s.metric, s.value"
+    " FROM score s JOIN trial t ON t.id = s.trial;"
+    "PRAGMA application_id = 1769103970; PRAGMA user_version = 1;"
+    "INSERT INTO meta VALUES('cpu', 'old');"
+    "INSERT INTO trial VALUES(7, 'cornell', 'rsm', 'rsm', '{}', 1);"
+    "INSERT INTO frame VALUES(7, 0, 'finish+clock'), (7, 1, 'finish+clock');"
+    "INSERT INTO stage_time VALUES(7, 0, 'gather', 4.25), (7, 0, 'filter', NULL),"
+    " (7, 1, 'gather', 5);"
+    "INSERT INTO statistic VALUES(7, 1, 'vpls', 9);"
+    "INSERT INTO score VALUES(7, -1, 'rmse', 0.5);";
+
+static int user_version(const struct fixture *f)
+{
+    sqlite3 *db;
+    sqlite3_stmt *stmt;
+    assert_int_equal(sqlite3_open(f->file, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_prepare_v2(db, "PRAGMA user_version", -1, &stmt, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(stmt), SQLITE_ROW);
+    int version = sqlite3_column_int(stmt, 0);
+    sqlite3_finalize(stmt);
+    sqlite3_close(db);
+    return version;
+}
+
+static void require_old_contents(struct irb_store *store)
+{
+    struct irb_error err = {0};
+    struct values v = {0};
+    REQUIRE_OK(irb_store_read_times(store, 7, collect_time, &v, &err));
+    assert_int_equal(v.count, 3);
+    require_value(&v, 0, 0, "0/filter", NAN);
+    require_value(&v, 1, 0, "0/gather", 4.25);
+    require_value(&v, 2, 1, "0/gather", 5);
+    v = (struct values){0};
+    REQUIRE_OK(irb_store_read_statistics(store, 7, collect, &v, &err));
+    require_value(&v, 0, 1, "vpls", 9);
+    v = (struct values){0};
+    REQUIRE_OK(irb_store_read_scores(store, 7, collect, &v, &err));
+    require_value(&v, 0, -1, "rmse", 0.5);
+    v = (struct values){0};
+    REQUIRE_OK(irb_store_read_costs(store, 7, collect, &v, &err));
+    assert_int_equal(v.count, 0);
+    assert_true(irb_store_has_repeat(store, 7, 0, 1));
+    assert_false(irb_store_has_repeat(store, 7, 1, 1));
+}
+
+static void make_schema_1(const struct fixture *f)
+{
+    irb_store_close(open_or_fail(f, true));
+    unlink(f->file);
+    execute(f, schema_1);
+}
+
+/* A reader sees it as it would be, and leaves it alone. */
+static void test_schema_1_read(void **state)
+{
+    const struct fixture *f = *state;
+    struct irb_error err = {0};
+    make_schema_1(f);
+    struct irb_store *store = open_or_fail(f, false);
+    require_old_contents(store);
+    const struct irb_store_value time[] = {{"gather", 6}};
+    assert_false(irb_store_repeat(store, 7, 1, 0, time, 1, &err));
+    irb_store_close(store);
+    assert_int_equal(user_version(f), 1);
+}
+
+/* A writer converts it, once and for all. */
+static void test_schema_1_converted(void **state)
+{
+    const struct fixture *f = *state;
+    struct irb_error err = {0};
+    make_schema_1(f);
+    struct irb_store *store = open_or_fail(f, true);
+    require_old_contents(store);
+    const struct irb_store_value time[] = {{"gather", 6}};
+    REQUIRE_OK(irb_store_repeat(store, 7, 1, 0, time, 1, &err));
+    REQUIRE_OK(irb_store_cost(store, 7, "create_ms", 8, &err));
+    assert_false(irb_store_repeat(store, 7, 1, 2, time, 1, &err)); /* the keys hold */
+    irb_store_close(store);
+    assert_int_equal(user_version(f), 2);
+
+    store = open_or_fail(f, false);
+    struct values v = {0};
+    REQUIRE_OK(irb_store_read_times(store, 7, collect_time, &v, &err));
+    assert_int_equal(v.count, 4);
+    require_value(&v, 3, 0, "1/gather", 6);
+    char *cpu = irb_store_get_meta(store, "cpu");
+    assert_string_equal(cpu, "old");
+    free(cpu);
+    irb_store_close(store);
+}
+
+/* What cannot be converted stays what it was. */
+static void test_schema_1_whole_or_not(void **state)
+{
+    const struct fixture *f = *state;
+    make_schema_1(f);
+    execute(f, "CREATE TABLE cost(of_something_else)");
+    expect_refusal(f->run, true, IRB_E_IO, f->file, "cannot convert the tables");
+    assert_int_equal(user_version(f), 1);
+    struct irb_store *store = open_or_fail(f, false);
+    require_old_contents(store);
+    irb_store_close(store);
 }
 
 static void test_other_database(void **state)
@@ -351,18 +526,14 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(test_round_trip),
-        CASE(test_trials_are_found_again),
-        CASE(test_replacing),
-        CASE(test_all_or_nothing),
-        CASE(test_reader_beside_a_writer),
-        CASE(test_killed_writer),
-        CASE(test_missing),
-        CASE(test_other_schema),
-        CASE(test_other_database),
-        CASE(test_no_database),
-        CASE(test_truncated),
-        CASE(test_unwritable),
+        CASE(test_round_trip),         CASE(test_trials_are_found_again),
+        CASE(test_replacing),          CASE(test_all_or_nothing),
+        CASE(test_repeats_and_costs),  CASE(test_reader_beside_a_writer),
+        CASE(test_killed_writer),      CASE(test_missing),
+        CASE(test_other_schema),       CASE(test_schema_1_read),
+        CASE(test_schema_1_converted), CASE(test_schema_1_whole_or_not),
+        CASE(test_other_database),     CASE(test_no_database),
+        CASE(test_truncated),          CASE(test_unwritable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
