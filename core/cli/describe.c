@@ -122,6 +122,8 @@ static bool show_config(struct irb_cli *cli, const char *path, struct irb_error 
            config.seed_count > 1 ? "s" : "");
     for (int i = 0; i < config.seed_count; i++)
         printf(" %d", config.seeds[i]);
+    if (config.repeats > 1)
+        printf(", each %d times", config.repeats);
     printf("\n\nrendering:\n");
     print_options(irb_render_options, &config.render);
     printf("\noutput:\n");

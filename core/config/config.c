@@ -66,6 +66,8 @@ static bool set_top(struct irb_config *config, const char *key, const char *text
         return irb_config_set_seed(config, text, err);
     if (!strcmp(key, "seeds"))
         return irb_config_set_seeds(config, text, err);
+    if (!strcmp(key, "repeats"))
+        return irb_config_set_repeats(config, text, err);
     if (!strcmp(key, "name"))
         return set_name(config, text, err);
     if (irb_option_find(irb_output_options, key))
@@ -260,7 +262,8 @@ static bool check_together(const struct irb_config *config, struct irb_error *er
 bool irb_config_load(struct irb_config *config, const char *path, const char *const *overrides,
                      const struct irb_registry *registry, struct irb_error *err)
 {
-    *config = (struct irb_config){.seeds = {1}, .seed_count = 1};
+    *config = (struct irb_config){0};
+    irb_config_usual_seeds(config);
     struct irb_yaml yaml;
     if (!irb_yaml_load(&yaml, path, err))
         return false;

@@ -83,6 +83,8 @@ struct irb_trial {
 enum {
     IRB_MOST_TRIALS = 1000, /* of a config; seeds and trials multiplied as well */
     IRB_MOST_SEEDS = 100,
+    IRB_USUAL_SEEDS = 5, /* where a config says nothing */
+    IRB_MOST_REPEATS = 100,
 };
 
 struct irb_config {
@@ -91,8 +93,10 @@ struct irb_config {
     struct irb_render_settings render;
     struct irb_output_settings output;
     struct irb_reference_settings reference;
-    int seeds[IRB_MOST_SEEDS]; /* every trial is run with each of them; one by default */
+    int seeds[IRB_MOST_SEEDS]; /* every trial is run with each of them */
     int seed_count;
+    int repeats; /* how often each seed is rendered: all but the first time for the times alone.
+                    More of them can be added to a run, so they are not in the config's key */
     struct irb_scene_entry *scenes;
     int scene_count;
     struct irb_trial *trials;

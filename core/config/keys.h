@@ -10,9 +10,13 @@
 
 #define IRB_CONFIG_TOP_KEYS(X)                                                                     \
     X("name", "text", "name of the run's folder and of its reports; the file's name by default")   \
-    X("seed", "whole number", "seed of every random choice; 1 by default")                         \
+    X("seed", "whole number", "seed of every random choice, the only one")                         \
     X("seeds", "list of numbers, or how many",                                                     \
-      "instead of seed: every trial is run with each of these seeds; 5 means 1, 2, 3, 4, 5")       \
+      "instead of seed: every trial is run with each of these seeds; 5, the default, means 1, 2, " \
+      "3, 4, 5")                                                                                   \
+    X("repeats", "whole number, 1 to 100",                                                         \
+      "how often each seed is rendered; 1 by default. Images and scores are the first time's, "    \
+      "times those of all")                                                                        \
     X("resolution", "[width, height]", "of the images, pixels")                                    \
     X("reference", "map", "how the ray-traced reference is made")                                  \
     X("scenes", "list of maps", "scenes, each with its view and script")                           \

@@ -41,12 +41,14 @@ bool irb_config_check_regions(const struct irb_config *config, struct irb_error 
 void irb_config_hash_regions(const struct irb_scene_entry *entry, struct irb_hash *hash);
 void irb_config_destroy_regions(struct irb_scene_entry *entry);
 
-/* `seed:` and `seeds:` (config_seeds.c): the file's node; the texts of --set; and what the seeds
- * after the first add to the config's key. */
+/* `seed:`, `seeds:` and `repeats:` (seeds.c): where nothing is said; the file's node; the texts of
+ * --set; and what the seeds after the first add to the config's key. */
+void irb_config_usual_seeds(struct irb_config *config);
 bool irb_config_read_seeds(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node node,
                            struct irb_error *err);
 bool irb_config_set_seed(struct irb_config *config, const char *text, struct irb_error *err);
 bool irb_config_set_seeds(struct irb_config *config, const char *text, struct irb_error *err);
+bool irb_config_set_repeats(struct irb_config *config, const char *text, struct irb_error *err);
 void irb_config_hash_seeds(const struct irb_config *config, struct irb_hash *hash);
 
 /* `trials:` (config_trials.c). */

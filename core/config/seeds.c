@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * `seed:` and `seeds:`: one seed, a list of them, or how many (5 means 1, 2, 3, 4, 5).
+ * `seed:` and `seeds:`: one seed, a list of them, or how many (5 means 1, 2, 3, 4, 5). And
+ * `repeats:` of each.
  */
 #include "core/base/str.h"
 #include "core/config/parts.h"
@@ -10,14 +11,33 @@
 #include <string.h>
 
 struct numbers {
-    int seed, seeds;
+    int seed, seeds, repeats;
 };
 
 static const struct irb_option options[] = {
     IRB_OPTION_INT(struct numbers, seed, 1, 0, INT_MAX, "", "seed of every random choice", "ours"),
-    IRB_OPTION_INT(struct numbers, seeds, 1, 1, IRB_MOST_SEEDS, "", "number of seeds", "ours"),
+    IRB_OPTION_INT(struct numbers, seeds, IRB_USUAL_SEEDS, 1, IRB_MOST_SEEDS, "", "number of seeds",
+                   "ours"),
+    IRB_OPTION_INT(struct numbers, repeats, 1, 1, IRB_MOST_REPEATS, "", "of each seed", "ours"),
     IRB_OPTION_END,
 };
+
+void irb_config_usual_seeds(struct irb_config *config)
+{
+    config->repeats = 1;
+    config->seed_count = IRB_USUAL_SEEDS;
+    for (int i = 0; i < IRB_USUAL_SEEDS; i++)
+        config->seeds[i] = i + 1;
+}
+
+bool irb_config_set_repeats(struct irb_config *config, const char *text, struct irb_error *err)
+{
+    struct numbers value;
+    if (!irb_option_set(options, &value, "repeats", text, err))
+        return false;
+    config->repeats = value.repeats;
+    return true;
+}
 
 bool irb_config_set_seed(struct irb_config *config, const char *text, struct irb_error *err)
 {

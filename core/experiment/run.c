@@ -95,6 +95,19 @@ static bool read_keys(struct irb_run *run, struct irb_sequence *sequence, struct
                     run->dir, sequence->entry->name);
 }
 
+static bool score_rendered(struct irb_run *run, struct irb_sequence *sequence,
+                           struct irb_error *err)
+{
+    const struct irb_config *all = run->config;
+    struct irb_config rendered;
+    bool ok = irb_run_rendered_trials(&rendered, run, sequence, err);
+    run->config = &rendered;
+    ok = ok && irb_score_sequence(run, sequence, err);
+    run->config = all;
+    free(rendered.trials);
+    return ok;
+}
+
 static bool run_scene(struct irb_run *run, const struct irb_scene_entry *entry,
                       struct irb_error *err)
 {
@@ -112,7 +125,7 @@ static bool run_scene(struct irb_run *run, const struct irb_scene_entry *entry,
     if (ok && (stages & IRB_STAGE_RENDER))
         ok = irb_render_sequence(run, &sequence, err);
     if (ok && (stages & IRB_STAGE_SCORE))
-        ok = irb_score_sequence(run, &sequence, err);
+        ok = score_rendered(run, &sequence, err);
     irb_sequence_close(&sequence);
     return ok || irb_error_prefix(err, "scene %s", entry->name);
 }

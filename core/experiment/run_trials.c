@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/experiment/run_trials.h"
 #include "core/base/str.h"
+#include "core/experiment/render_trial.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -69,6 +70,30 @@ bool irb_run_trials(struct irb_config *selected, const struct irb_config *config
             free(name);
         }
     }
+    return true;
+}
+
+bool irb_run_rendered_trials(struct irb_config *rendered, const struct irb_run *run,
+                             const struct irb_sequence *sequence, struct irb_error *err)
+{
+    const struct irb_config *config = run->config;
+    *rendered = *config;
+    rendered->trial_count = 0;
+    rendered->trials = calloc((size_t)config->trial_count, sizeof *rendered->trials);
+    if (!rendered->trials)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", config->trial_count);
+    for (int i = 0; i < config->trial_count; i++)
+        if (irb_trial_is_rendered(run, sequence, &config->trials[i]))
+            rendered->trials[rendered->trial_count++] = config->trials[i];
+    if (rendered->trial_count && rendered->trial_count < config->trial_count)
+        irb_warn(run->log,
+                 "%s: %d of %d trials, each seed counted, are not rendered to their end "
+                 "and not scored; the same command goes on with them",
+                 sequence->entry->name, config->trial_count - rendered->trial_count,
+                 config->trial_count);
+    if (!rendered->trial_count) /* scoring says what is missing */
+        for (int i = 0; i < config->trial_count; i++)
+            rendered->trials[rendered->trial_count++] = config->trials[i];
     return true;
 }
 

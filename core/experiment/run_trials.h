@@ -12,6 +12,10 @@
  * the config lacks. */
 bool irb_run_trials(struct irb_config *selected, const struct irb_config *config,
                     const struct irb_run_options *options, struct irb_error *err);
+/* Likewise of a run's config, those of a scene that are rendered to their end: what can be scored.
+ * A warning says how many are not. All where none is. The list is owned, what is in it borrowed. */
+bool irb_run_rendered_trials(struct irb_config *rendered, const struct irb_run *run,
+                             const struct irb_sequence *sequence, struct irb_error *err);
 void irb_run_trials_free(struct irb_config *selected);
 
 #endif

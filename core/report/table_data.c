@@ -172,6 +172,14 @@ static char *read_provenance(const struct irb_table_data *data, struct irb_store
     return out.text ? out.text : irb_strdup("");
 }
 
+static void read_cost(void *user, int frame, const char *name, double value)
+{
+    struct irb_table_row *row = user;
+    (void)frame;
+    if (!strcmp(name, "create_ms"))
+        row->metrics[IRB_METRIC_precompute_ms] = value;
+}
+
 static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
                      struct irb_store *store, struct irb_error *err)
 {
@@ -182,10 +190,12 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         row->metrics[i] = row->spread[i] = NAN;
     bool ok = irb_store_read_scores(store, row->trial->id, read_score, &scored, err) &&
+              irb_store_read_costs(store, row->trial->id, read_cost, row, err) &&
               irb_store_read_times(store, row->trial->id, read_stage, &timing, err) &&
               read_statistics(data, row, store, err);
     struct irb_summary frames = irb_summarise(timing.frames.values, timing.frames.count);
     row->metrics[IRB_METRIC_frame_ms] = frames.median;
+    row->metrics[IRB_METRIC_frame_ms_mean] = frames.mean;
     row->metrics[IRB_METRIC_frame_ms_p95] = frames.p95;
     row->metrics[IRB_METRIC_frame_ms_worst] = frames.worst;
     /* later trials may bring more stages: pad_rows() makes the rows equally long */

@@ -75,9 +75,14 @@
       "relative MSE that the reference's own noise makes in the indirect image; an error below "   \
       "it is not ranked")                                                                          \
     X(reference_flicker, "", NONE, "flicker that the reference's own noise can make: the floor")   \
-    X(frame_ms, "ms", LOWER, "time of a frame, median over the sequence")                          \
+    X(frame_ms, "ms", LOWER, "time of a frame, median over the sequence and its repeats")          \
+    X(frame_ms_mean, "ms", LOWER,                                                                  \
+      "time of a frame, mean over the sequence: what happens in some frames only is spread over "  \
+      "all")                                                                                       \
     X(frame_ms_p95, "ms", LOWER, "time of a frame, 95th percentile (nearest rank)")                \
     X(frame_ms_worst, "ms", LOWER, "time of a frame, the slowest one")                             \
+    X(precompute_ms, "ms", LOWER,                                                                  \
+      "what is paid once, before the first frame: making the method's state")                      \
     X(gl_bytes, "bytes", LOWER, "bytes of OpenGL objects that the method holds")
 
 /* Scored in regions: X(name). */

@@ -55,6 +55,7 @@ expect 3 "IRBENCH_NO_SUCH_VARIABLE" "$IRBENCH" run "$work/variable.yaml"
 config good <<'YAML'
 name: good
 scene: cornell
+seed: 1
 resolution: [16, 12]
 frames: 1
 rsm_resolution: 16
@@ -69,7 +70,7 @@ together() { # together TRIAL 'words': a config of a sound trial and this one
     { grep -v "^trials" "$work/good.yaml"; printf 'trials:\n  - rsm\n  - %s\n' "$1"; } >"$work/together.yaml"
     for command in "run $work/together.yaml --out $work/together" "reference $work/together.yaml" \
         "show $work/together.yaml"; do
-        IRBENCH_CACHE="$work/untouched" expect 3 "together.yaml:9:5: trial '$2" "$IRBENCH" $command
+        IRBENCH_CACHE="$work/untouched" expect 3 "together.yaml:10:5: trial '$2" "$IRBENCH" $command
     done
     checks=$((checks + 1))
     [ ! -e "$work/together" ] && [ ! -e "$work/untouched" ] || {

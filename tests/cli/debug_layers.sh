@@ -8,6 +8,7 @@ need_gl
 cat >"$work/debug.yaml" <<'YAML'
 name: debug
 scene: cornell
+seed: 1
 resolution: [24, 18]
 frames: 7
 settle: 3

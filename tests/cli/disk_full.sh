@@ -11,6 +11,7 @@ trap 'umount "$disk" 2>/dev/null; rm -rf "$work"' EXIT
 cat >"$work/small.yaml" <<'YAML'
 name: small
 scene: cornell
+seed: 1
 resolution: [64, 48]
 frames: 4
 rsm_resolution: 16

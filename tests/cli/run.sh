@@ -8,6 +8,7 @@ need_gl
 cat >"$work/small.yaml" <<'YAML'
 name: small
 scene: cornell
+seed: 1
 resolution: [48, 36]
 frames: 3
 rsm_resolution: 32

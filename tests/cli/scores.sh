@@ -11,6 +11,7 @@ python=$(command -v python3) || {
 cat >"$work/scores.yaml" <<'YAML'
 name: scores
 scene: cornell
+seed: 1
 resolution: [40, 30]
 frames: 8
 settle: 1

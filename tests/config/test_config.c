@@ -172,8 +172,9 @@ static void test_shortest(void **state)
     struct irb_config c;
     load(&c, "scene: cornell\ntrials: [rsm]\n", NULL);
     assert_string_equal(c.name, "some.study");
-    assert_int_equal(c.seed_count, 1);
-    assert_int_equal(c.seeds[0], 1);
+    assert_int_equal(c.seed_count, 5);
+    assert_int_equal(c.seeds[4], 5);
+    assert_int_equal(c.repeats, 1);
     assert_int_equal(c.render.settle, 16);
     assert_string_equal(c.scenes[0].name, "cornell");
     assert_int_equal(c.scenes[0].animation.light_key_count, 1);
@@ -373,13 +374,26 @@ static void expect_seeds(const char *line, const char *override, int count, cons
 static void test_seeds(void **state)
 {
     (void)state;
-    expect_seeds("", NULL, 1, (const int[]){1});
+    expect_seeds("", NULL, 5, (const int[]){1, 2, 3, 4, 5});
     expect_seeds("seed: 0", NULL, 1, (const int[]){0});
     expect_seeds("seeds: 3", NULL, 3, (const int[]){1, 2, 3});
     expect_seeds("seeds: [7, 0, 5]", NULL, 3, (const int[]){7, 0, 5});
     expect_seeds("seeds: [7, 0, 5]", "seed=4", 1, (const int[]){4});
     expect_seeds("seed: 9", "seeds=2", 2, (const int[]){1, 2});
     expect_seeds("seed: 9", "seeds=8,6", 2, (const int[]){8, 6});
+}
+
+static void test_repeats(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    load(&c, "scene: cornell\nrepeats: 3\ntrials: [rsm]\n", NULL);
+    assert_int_equal(c.repeats, 3);
+    irb_config_destroy(&c);
+    load(&c, "scene: cornell\nrepeats: 3\ntrials: [rsm]\n",
+         (const char *const[]){"repeats=100", NULL});
+    assert_int_equal(c.repeats, 100);
+    irb_config_destroy(&c);
 }
 
 static struct irb_key key_with(const char *text, const char *override)
@@ -407,6 +421,7 @@ static void test_key(void **state)
     /* not what a name, a comment or the notation says */
     assert_string_equal(key_with(full_text, "name=other").hex, key.hex);
     assert_string_equal(key_with(full_text, "debug_layers=true").hex, key.hex);
+    assert_string_equal(key_with(full_text, "repeats=2").hex, key.hex); /* times alone */
     assert_string_equal(key_with(full_text, "frames=9").hex, key.hex);
     assert_string_equal(
         key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,
@@ -419,6 +434,8 @@ static void test_key(void **state)
         for (int j = 0; j < i; j++)
             assert_string_not_equal(key_of_samples(tracks[i]).hex, key_of_samples(tracks[j]).hex);
     assert_string_equal(key_with("scene: cornell\nseeds: [1]\ntrials: [rsm]", NULL).hex,
+                        key_with("scene: cornell\nseed: 1\ntrials: [rsm]", NULL).hex);
+    assert_string_equal(key_with("scene: cornell\nseeds: 5\ntrials: [rsm]", NULL).hex,
                         key_with("scene: cornell\ntrials: [rsm]", NULL).hex);
     assert_string_equal(
         key_with("scene: cornell\ntrials: [{rsm: {samples: [1, 2]}}]", NULL).hex,
@@ -470,7 +487,7 @@ int main(void)
         cmocka_unit_test(test_overrides), cmocka_unit_test(test_key),
         cmocka_unit_test(test_sweeps),    cmocka_unit_test(test_matrix),
         cmocka_unit_test(test_tracks),    cmocka_unit_test(test_seeds),
-        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_repeats),   cmocka_unit_test(test_regions),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

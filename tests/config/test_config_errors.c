@@ -141,7 +141,7 @@ static void test_top(void **state)
     expect_top("frame: 3", "@:2:1: config: unknown key 'frame'; did you mean 'frames'?");
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
-               "seeds, resolution, reference, scenes, scene, camera, light, animation, "
+               "seeds, repeats, resolution, reference, scenes, scene, camera, light, animation, "
                "objects, regions, trials, width, height, frames, settle, rsm_resolution, "
                "gbuffer_layout, rsm_layout, exposure, "
                "debug_layers");
@@ -646,6 +646,9 @@ static void test_seeds(void **state)
     expect_top("seeds: [1, [2]]", "@:2:12: seeds: expected a single value, found a list");
     expect_top("seeds: [1, 2, 1]", "@:2:15: seeds: 1 stands here twice");
     expect_top("seeds: [1, 2]\nseed: 3", "@:2:8: seeds: expected seed: or seeds:, found both");
+    expect_top("repeats: 0", "@:2:10: repeats: expected a whole number in [1, 100]; found '0'");
+    expect_top("repeats: 101", "@:2:10: repeats: expected a whole number in [1, 100]; found '101'");
+    expect_top("repeats: [1]", "@:2:10: repeats: expected a single value, found a list");
     char *many = numbers(101);
     char *text = irb_asprintf("seeds: %s", many);
     /* its 101st number: 9 of one digit, 90 of two, 1 of three before it, two characters between */

@@ -64,6 +64,7 @@ DIRECT_SHARE = 0.005
 LAYER = 'ViewLayer'
 
 CONFIG = """name: cycles-{name}
+seed: 1
 resolution: [{width}, {height}]
 frames: 1
 settle: 0

@@ -243,6 +243,50 @@ static void test_frames_for_people(void **state)
     }
 }
 
+/* Two frames, rendered twice: 2 + 1 and 4 + 1, then 6 + 1 and 20 + 1 ms. All four times are the
+ * trial's: median 6, mean 9; those of a frame are means over its repeats. */
+static void test_repeats(void **state)
+{
+    (void)state;
+    static const double gather[2][2] = {{2, 4}, {6, 20}};
+    struct irb_error err = {0};
+    char repeats[64], row[4096], value[64];
+    snprintf(repeats, sizeof repeats, "%s/repeats", folder);
+    struct irb_store *store = irb_store_open(repeats, true, &err);
+    assert_non_null(store);
+    int64_t trial = irb_store_trial(store, "box", "rsm", "rsm", "{}", 1, &err);
+    for (int repeat = 0; repeat < 2; repeat++)
+        for (int frame = 0; frame < 2; frame++) {
+            const struct irb_store_value stages[] = {{"gather", gather[repeat][frame]},
+                                                     {"filter", 1}};
+            REQUIRE_OK(
+                repeat ? irb_store_repeat(store, trial, repeat, frame, stages, 2, &err)
+                       : irb_store_frame(store, trial, frame, "clock", stages, 2, NULL, 0, &err));
+        }
+    REQUIRE_OK(irb_store_cost(store, trial, "create_ms", 125, &err));
+    REQUIRE_OK(irb_store_cost(store, trial, "settle_ms", 7, &err));
+    expect_text(store, IRB_TABLE_FRAMES, IRB_TABLE_CSV, false,
+                "scene,method,trial,seed,frame,frame_ms,stage_filter_ms,stage_gather_ms\n"
+                "box,rsm,rsm,1,0,5,1,4\n"
+                "box,rsm,rsm,1,1,13,1,12\n");
+    expect_text(store, IRB_TABLE_STAGES, IRB_TABLE_CSV, false,
+                "scene,method,trial,params,seed,seeds,stage_filter_ms,stage_gather_ms,frame_ms\n"
+                "box,rsm,rsm,,1,1,1,5,6\n");
+    static const char *const expected[][2] = {{"frame_ms", "6"},
+                                              {"frame_ms_mean", "9"},
+                                              {"frame_ms_p95", "21"},
+                                              {"frame_ms_worst", "21"},
+                                              {"precompute_ms", "125"}};
+    char *text = write_table(store, IRB_TABLE_SCORES, IRB_TABLE_JSON, false);
+    assert_true(json_item(text, 0, row, sizeof row));
+    for (int i = 0; i < 5; i++) {
+        assert_true(json_member(row, expected[i][0], value, sizeof value));
+        assert_string_equal(value, expected[i][1]);
+    }
+    free(text);
+    irb_store_close(store);
+}
+
 static void test_no_trials(void **state)
 {
     (void)state;
@@ -270,7 +314,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stages),    cmocka_unit_test(test_statistics),
         cmocka_unit_test(test_frames),    cmocka_unit_test(test_frames_for_people),
-        cmocka_unit_test(test_no_trials),
+        cmocka_unit_test(test_no_trials), cmocka_unit_test(test_repeats),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

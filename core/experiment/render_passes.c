@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/experiment/render_passes.h"
+#include "core/base/fs.h"
+#include "core/experiment/frame_file.h"
+#include "core/experiment/paths.h"
+#include "core/image/exr.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Above this share of differing pixels the reference belongs to another image altogether. */
+static const double largest_masked_share = 0.05;
+
+/* The G-buffer and RSM that methods read, where their layout is not the full one. */
+static bool open_slim(struct irb_passes *p, struct irb_error *err)
+{
+    const struct irb_render_settings *render = &p->run->config->render;
+    struct irb_gl *gl = p->run->gl;
+    return (render->gbuffer_layout == IRB_LAYOUT_FULL ||
+            (p->slim_gbuffer =
+                 irb_gbuffer_create_layout(gl, (enum irb_layout)render->gbuffer_layout,
+                                           render->width, render->height, err))) &&
+           (render->rsm_layout == IRB_LAYOUT_FULL ||
+            (p->slim_rsm = irb_rsm_create_layout(gl, (enum irb_layout)render->rsm_layout,
+                                                 render->rsm_resolution, err)));
+}
+
+bool irb_passes_open(struct irb_passes *p, struct irb_error *err)
+{
+    const struct irb_render_settings *render = &p->run->config->render;
+    struct irb_gl *gl = p->run->gl;
+    p->stored = calloc((size_t)p->sequence->frame_count, sizeof *p->stored);
+    if (!p->stored)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d frames", p->sequence->frame_count);
+    return irb_sequence_pose(p->sequence, 0, err) &&
+           (p->scene = irb_scene_gl_create(gl, p->sequence->scene, err)) &&
+           (p->gbuffer = irb_gbuffer_create(gl, render->width, render->height, err)) &&
+           (p->rsm = irb_rsm_create(gl, render->rsm_resolution, err)) &&
+           (p->direct = irb_direct_create(gl, render->width, render->height, err)) &&
+           open_slim(p, err) && (p->timer = irb_timer_create(gl, err));
+}
+
+void irb_passes_close(struct irb_passes *p)
+{
+    free(p->stored);
+    irb_timer_destroy(p->timer);
+    irb_direct_destroy(p->direct);
+    irb_rsm_destroy(p->slim_rsm);
+    irb_rsm_destroy(p->rsm);
+    irb_gbuffer_destroy(p->slim_gbuffer);
+    irb_gbuffer_destroy(p->gbuffer);
+    irb_scene_gl_destroy(p->scene);
+}
+
+const struct irb_gbuffer *irb_passes_gbuffer(const struct irb_passes *p)
+{
+    return p->slim_gbuffer ? p->slim_gbuffer : p->gbuffer;
+}
+
+const struct irb_rsm *irb_passes_rsm(const struct irb_passes *p)
+{
+    return p->slim_rsm ? p->slim_rsm : p->rsm;
+}
+
+/* Of a G-buffer or RSM in two layouts the one that methods read is timed: the other is the
+ * harness's own. */
+bool irb_passes_render(struct irb_passes *p, int frame, struct irb_error *err)
+{
+    const struct irb_sequence_frame *pose = &p->sequence->frames[frame < 0 ? 0 : frame];
+    struct irb_gbuffer *gbuffer = p->slim_gbuffer ? p->slim_gbuffer : p->gbuffer;
+    struct irb_rsm *rsm = p->slim_rsm ? p->slim_rsm : p->rsm;
+    bool ok = irb_sequence_pose(p->sequence, frame, err) && irb_scene_gl_update(p->scene, err);
+    irb_timer_begin(p->timer, IRB_CORE_GBUFFER);
+    ok = ok && irb_gbuffer_render(gbuffer, p->scene, &pose->camera, err);
+    irb_timer_end(p->timer);
+    irb_timer_begin(p->timer, IRB_CORE_RSM);
+    ok = ok && irb_rsm_render(rsm, p->scene, &pose->light, err);
+    irb_timer_end(p->timer);
+    ok = ok &&
+         (gbuffer == p->gbuffer || irb_gbuffer_render(p->gbuffer, p->scene, &pose->camera, err)) &&
+         (rsm == p->rsm || irb_rsm_render(p->rsm, p->scene, &pose->light, err));
+    irb_timer_begin(p->timer, IRB_CORE_DIRECT);
+    ok = ok && irb_direct_render(p->direct, p->gbuffer, p->rsm, &pose->light, &pose->camera, err);
+    irb_timer_end(p->timer);
+    irb_timer_collect(p->timer, p->ms);
+    return ok;
+}
+
+/* Writes the mask of the pixels where this driver's G-buffer is not the reference's. */
+static bool store_mask(struct irb_passes *p, int frame, const struct irb_gbuffer_image *mine,
+                       const char *cached, struct irb_error *err)
+{
+    struct irb_run *run = p->run;
+    const char *name = p->sequence->entry->name;
+    struct irb_gbuffer_image prepared = {0};
+    struct irb_image mask = {0};
+    double share = 0;
+    bool ok = irb_gbuffer_image_load(&prepared, cached, err) &&
+              irb_gbuffer_difference(mine, &prepared, &mask, &share, err);
+    if (ok && share > largest_masked_share)
+        ok = irb_fail(err, IRB_E_BACKEND,
+                      "%s: frame %d: %.1f %% of the pixels see another surface than the reference "
+                      "does (at most %.0f %% can be masked)",
+                      name, frame, 100 * share, 100 * largest_masked_share);
+    char *path = irb_run_file(run->dir, name, NULL, "mask", frame, "exr");
+    struct irb_exr_layer layer = {"mask", "Y", &mask};
+    ok = ok && irb_exr_write(path, &layer, 1, NULL, 0, IRB_EXR_ZIP, err);
+    free(path);
+    if (ok)
+        irb_warn(run->log,
+                 "%s: frame %d: %.3f %% of the pixels are masked: this driver's G-buffer differs "
+                 "from the reference's",
+                 name, frame, 100 * share);
+    irb_image_destroy(&mask);
+    irb_gbuffer_image_destroy(&prepared);
+    return ok;
+}
+
+bool irb_passes_store(struct irb_passes *p, int frame, struct irb_error *err)
+{
+    struct irb_run *run = p->run;
+    const struct irb_key *expected = &p->sequence->frames[frame].gbuffer;
+    if (p->stored[frame])
+        return true;
+    char *direct = irb_run_file(run->dir, p->sequence->entry->name, NULL, "direct", frame, "exr");
+    bool ok = irb_fs_exists(direct) || irb_direct_file_save(direct, p->direct->radiance, err);
+    free(direct);
+    p->stored[frame] = ok;
+    if (!ok || irb_sequence_same_view(p->sequence, frame))
+        return ok;
+    struct irb_gbuffer_image mine = {0};
+    if (!irb_gbuffer_read(p->gbuffer, &mine, err))
+        return false;
+    struct irb_key key = irb_gbuffer_image_key(&mine);
+    if (strcmp(key.hex, expected->hex)) {
+        char *cached = irb_cache_gbuffer(run->cache, expected);
+        ok = store_mask(p, frame, &mine, cached, err);
+        free(cached);
+    }
+    irb_gbuffer_image_destroy(&mine);
+    return ok;
+}
