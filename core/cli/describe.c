@@ -93,6 +93,8 @@ static bool show_method(const struct irb_method *method, struct irb_error *err)
            method->title, method->citation, method->path_classes, irb_str_text(&visibility));
     irb_str_free(&visibility);
     print_options(method->params, trial.params);
+    printf("\nand of every trial:\n");
+    print_options(irb_trial_options, &trial.core);
     printf("\nstages:");
     for (int i = 0; method->stages[i]; i++)
         printf(" %s", method->stages[i]);
@@ -105,7 +107,10 @@ static bool show_method(const struct irb_method *method, struct irb_error *err)
 static void show_trial(const struct irb_trial *trial)
 {
     struct irb_str values = {0};
-    for (const struct irb_option *o = trial->method->params; o->name; o++) {
+    const struct irb_option *o;
+    for (int i = 0; (o = irb_trial_option(trial->method, i)); i++) {
+        if (irb_trial_option_is_core(o) && irb_trial_is_default(trial, o))
+            continue;
         irb_str_printf(&values, " %s=", o->name);
         irb_trial_print(trial, o, &values);
     }

@@ -148,6 +148,11 @@ static void docs_method(FILE *out, const struct irb_method *method)
 static void docs_methods(FILE *out, const struct irb_cli *cli)
 {
     print_title(out, "Methods", "methods");
+    fputs("## Of every trial\n\nBeside the method's own parameters, in names, maps and sweeps "
+          "alike.\n\n",
+          out);
+    irb_markdown_options(out, irb_trial_options, "parameter");
+    fputs("\n", out);
     for (int i = 0; i < cli->registry.count; i++)
         docs_method(out, cli->registry.methods[i]);
 }

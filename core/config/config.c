@@ -19,8 +19,8 @@ const struct irb_option irb_render_options[] = {
     IRB_OPTION_INT(struct irb_render_settings, frames, 8, 1, 100000, "", "scored frames", "ours"),
     IRB_OPTION_INT(struct irb_render_settings, settle, 16, 0, 10000, "",
                    "unscored frames at the first pose, for methods that keep a history", "ours"),
-    IRB_OPTION_INT(struct irb_render_settings, rsm_resolution, 512, 1, 8192, "texels",
-                   "side of the reflective shadow map", "ACRSM thesis, 5.1.1"),
+    IRB_OPTION_INT(struct irb_render_settings, rsm_resolution, 512, 1, IRB_MOST_RSM_RESOLUTION,
+                   "texels", "side of the reflective shadow map", "ACRSM thesis, 5.1.1"),
     IRB_OPTION_ENUM(struct irb_render_settings, gbuffer_layout, IRB_LAYOUT_FULL, irb_layout_names,
                     "G-buffer that methods are given: 32-bit floats, or the thesis's 16 bytes a "
                     "pixel; the reference and the direct light keep the full one",
@@ -356,6 +356,7 @@ struct irb_key irb_config_key(const struct irb_config *config)
         irb_hash_string(hash, config->trials[i].method->name);
         irb_options_hash(config->trials[i].method->params, config->trials[i].params, hash);
         irb_trial_hash_tracks(&config->trials[i], hash);
+        irb_trial_hash_core(&config->trials[i], hash);
     }
     irb_config_hash_seeds(config, hash);
     return irb_hash_finish(hash);

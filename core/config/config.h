@@ -26,6 +26,15 @@ struct irb_render_settings {
 };
 extern const struct irb_option irb_render_options[];
 
+enum { IRB_MOST_RSM_RESOLUTION = 8192 };
+
+/* Parameters that the core gives every trial beside its method's own; a method's own of the same
+ * name takes their place. They don't change over the sequence. */
+struct irb_trial_settings {
+    int rsm_resolution; /* texels a side of the RSM that the method is given; 0: the config's */
+};
+extern const struct irb_option irb_trial_options[];
+
 /* What is kept of a run beside its numbers. It changes none of them but gl_bytes, where a method
  * makes textures for it, and is not in the config's key. */
 struct irb_output_settings {
@@ -70,7 +79,8 @@ struct irb_track {
 
 struct irb_trial {
     const struct irb_method *method;
-    void *params;             /* the method's parameter struct, as frame 0 has it; owned */
+    void *params; /* the method's parameter struct, as frame 0 has it; owned */
+    struct irb_trial_settings core;
     struct irb_track *tracks; /* of the parameters that change; owned */
     int track_count;
     char *name; /* "rsm:mode=importance:samples=400@0+100@8": only what differs from the defaults */
@@ -123,6 +133,15 @@ void irb_trial_print(const struct irb_trial *trial, const struct irb_option *opt
                      struct irb_str *out);
 /* Whether it has its default value in all frames. */
 bool irb_trial_is_default(const struct irb_trial *trial, const struct irb_option *option);
+/* The parameters of a trial in order: the method's, then the core's; NULL behind the last one. */
+const struct irb_option *irb_trial_option(const struct irb_method *method, int index);
+/* Its place in that order by name, -1 where there is none. */
+int irb_trial_option_find(const struct irb_method *method, const char *name);
+/* Whether it is one of the core's: these are said of a trial only where they are set. */
+bool irb_trial_option_is_core(const struct irb_option *option);
+/* Of the RSM that its method is given, texels a side. */
+int irb_trial_rsm_resolution(const struct irb_trial *trial,
+                             const struct irb_render_settings *render);
 /* Whether it changes over the sequence. */
 bool irb_trial_has_track(const struct irb_trial *trial, const struct irb_option *option);
 

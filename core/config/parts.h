@@ -63,6 +63,10 @@ bool irb_config_check_trials(const struct irb_config *config, struct irb_error *
 bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
                      struct irb_error *err);
 void irb_trial_rename(struct irb_trial *trial);
+/* What parameters of the core add to the config's key, where they are set. */
+void irb_trial_hash_core(const struct irb_trial *trial, struct irb_hash *hash);
+/* That a parameter has no keys over the sequence. */
+bool irb_trial_refuse_track(const struct irb_option *option, struct irb_error *err);
 /* irb_option_set() on its parameters; `text` may hold keys. */
 bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
                    struct irb_error *err);

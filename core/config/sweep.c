@@ -7,9 +7,9 @@
 
 static const char matrix_key[] = "matrix";
 
-enum { MOST_PARAMS = 128 }; /* of a method */
+enum { MOST_PARAMS = 128 }; /* of a trial */
 
-/* What is said of each parameter, in the order of the method's table; NULL where nothing is. */
+/* What is said of each parameter, in the order of irb_trial_option(); NULL where nothing is. */
 struct sweep {
     struct irb_yaml *yaml;
     const struct irb_method *method;
@@ -47,9 +47,9 @@ static bool merge(struct sweep *s, irb_yaml_node map, struct irb_error *err)
         return false;
     for (int i = 0; i < irb_yaml_pairs(map); i++) {
         irb_yaml_node key = irb_yaml_key(s->yaml, map, i);
-        const struct irb_option *option = irb_option_find(s->method->params, key_text(key));
-        if (option)
-            s->values[option - s->method->params] = irb_yaml_value(s->yaml, map, i);
+        int option = irb_trial_option_find(s->method, key_text(key));
+        if (option >= 0)
+            s->values[option] = irb_yaml_value(s->yaml, map, i);
         else if (!is_matrix(s->method, key))
             return unknown_key(s, key, err);
     }
@@ -107,22 +107,22 @@ static int values_of(irb_yaml_node value)
 /* How many trials there are; *total is bounded. */
 static bool check_lists(struct sweep *s, int *total, struct irb_error *err)
 {
-    const struct irb_option *options = s->method->params;
+    const struct irb_option *option;
     *total = 1;
-    for (int i = 0; options[i].name; i++) {
+    for (int i = 0; (option = irb_trial_option(s->method, i)); i++) {
         irb_yaml_node value = s->values[i];
         int count = values_of(value);
         if (!count)
             return irb_yaml_fail(s->yaml, value, err,
                                  "%s.%s: expected at least one value, found an empty list",
-                                 s->method->name, options[i].name);
+                                 s->method->name, option->name);
         if (count > IRB_MOST_TRIALS / *total)
             return irb_yaml_fail(s->yaml, value, err,
                                  "%s.%s: expected at most %d trials, found %lld with these values",
-                                 s->method->name, options[i].name, IRB_MOST_TRIALS,
+                                 s->method->name, option->name, IRB_MOST_TRIALS,
                                  (long long)*total * count);
         *total *= count;
-        if (value && value->type == YAML_SEQUENCE_NODE && !check_list(s, &options[i], value, err))
+        if (value && value->type == YAML_SEQUENCE_NODE && !check_list(s, option, value, err))
             return false;
     }
     return true;
@@ -131,9 +131,8 @@ static bool check_lists(struct sweep *s, int *total, struct irb_error *err)
 /* The trial at `index`, whose digits are the places in the lists, the last list's first. */
 static bool make_trial(struct sweep *s, struct irb_trial *trial, int index, struct irb_error *err)
 {
-    const struct irb_option *options = s->method->params;
     int place[MOST_PARAMS] = {0}, count = 0;
-    while (options[count].name)
+    while (irb_trial_option(s->method, count))
         count++;
     for (int i = count - 1; i >= 0; i--) {
         place[i] = index % values_of(s->values[i]);
@@ -147,7 +146,7 @@ static bool make_trial(struct sweep *s, struct irb_trial *trial, int index, stru
             continue;
         if (value->type == YAML_SEQUENCE_NODE)
             value = irb_yaml_item(s->yaml, value, place[i]);
-        if (!set_value(s, trial, &options[i], value, err)) {
+        if (!set_value(s, trial, irb_trial_option(s->method, i), value, err)) {
             irb_trial_destroy(trial);
             return false;
         }
@@ -206,7 +205,7 @@ bool irb_sweep(struct irb_yaml *yaml, const struct irb_method *method, irb_yaml_
 {
     struct sweep s = {.yaml = yaml, .method = method, .fn = fn, .user = user};
     int count = 0;
-    while (method->params[count].name)
+    while (irb_trial_option(method, count))
         count++;
     if (count > MOST_PARAMS)
         return irb_fail(err, IRB_E_INTERNAL, "%s: has %d parameters, at most %d are supported",

@@ -2,9 +2,9 @@
  *
  * The trials that one parameter map stands for. A list where a single value may stand gives one
  * trial for each value; several lists give every combination, in the order of the method's
- * parameter table with the last one changing fastest. `matrix:` lists the combinations instead:
- * each of its maps is merged over what stands beside it, and may hold lists itself. A value
- * may be a map of its keys over the sequence (tracks.c).
+ * parameter table, the core's parameters behind it, with the last one changing fastest. `matrix:`
+ * lists the combinations instead: each of its maps is merged over what stands beside it, and may
+ * hold lists itself. A value may be a map of its keys over the sequence (tracks.c).
  *
  *     - rsm: {mode: uniform, samples: [100, 400, 1600]}
  *     - rsm: {clamp: 10, matrix: [{mode: uniform, samples: 100}, {mode: all}]}

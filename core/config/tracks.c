@@ -217,12 +217,17 @@ bool irb_trial_parse_track(struct irb_trial *trial, const struct irb_option *opt
     return ok;
 }
 
+static const void *settings_of(const struct irb_trial *trial, const struct irb_option *option)
+{
+    return irb_trial_option_is_core(option) ? (const void *)&trial->core : trial->params;
+}
+
 void irb_trial_print(const struct irb_trial *trial, const struct irb_option *option,
                      struct irb_str *out)
 {
     const struct irb_track *track = find_track(trial, option);
     if (!track)
-        irb_option_print(option, trial->params, out);
+        irb_option_print(option, settings_of(trial, option), out);
     for (int i = 0; track && i < track->key_count; i++) {
         irb_str_printf(out, "%s", i ? separators[track->interpolation] : "");
         irb_option_print_value(option, track->keys[i].value, out);
@@ -232,7 +237,7 @@ void irb_trial_print(const struct irb_trial *trial, const struct irb_option *opt
 
 bool irb_trial_is_default(const struct irb_trial *trial, const struct irb_option *option)
 {
-    return !find_track(trial, option) && irb_option_is_default(option, trial->params);
+    return !find_track(trial, option) && irb_option_is_default(option, settings_of(trial, option));
 }
 
 void irb_trial_hash_tracks(const struct irb_trial *trial, struct irb_hash *hash)
@@ -316,6 +321,10 @@ bool irb_trial_read_track(struct irb_trial *trial, const struct irb_option *opti
                           struct irb_yaml *yaml, irb_yaml_node map, struct irb_error *err)
 {
     static const char *const allowed[] = {IRB_CONFIG_TRACK_KEYS(IRB_CONFIG_KEY_NAME) NULL};
+    if (irb_trial_option_is_core(option)) {
+        irb_trial_refuse_track(option, err);
+        return irb_yaml_prefix(yaml, map, err);
+    }
     struct irb_track track = {.option = option};
     bool ok = irb_yaml_check_map(yaml, map, option->name, allowed, err) &&
               read_interpolation(yaml, &track, map, err) &&

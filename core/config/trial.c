@@ -1,12 +1,79 @@
 /* SPDX-License-Identifier: MIT
  *
- * The name of a trial, "method:option=value:option=value", as it is parsed and printed.
+ * A trial's parameters, the method's and the core's; its name, "method:option=value:option=value",
+ * as it is parsed and printed.
  */
 #include "core/base/str.h"
 #include "core/config/parts.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+const struct irb_option irb_trial_options[] = {
+    IRB_OPTION_INT(
+        struct irb_trial_settings, rsm_resolution, 0, 0, IRB_MOST_RSM_RESOLUTION, "texels",
+        "side of the reflective shadow map that the method is given; 0 = the config's", "ours"),
+    IRB_OPTION_END,
+};
+
+/* ---- parameters ---- */
+
+bool irb_trial_option_is_core(const struct irb_option *option)
+{
+    for (const struct irb_option *o = irb_trial_options; o->name; o++)
+        if (o == option)
+            return true;
+    return false;
+}
+
+const struct irb_option *irb_trial_option(const struct irb_method *method, int index)
+{
+    const struct irb_option *o = method->params;
+    for (; o->name; o++)
+        if (!index--)
+            return o;
+    for (o = irb_trial_options; o->name; o++)
+        if (!irb_option_find(method->params, o->name) && !index--)
+            return o;
+    return NULL;
+}
+
+int irb_trial_option_find(const struct irb_method *method, const char *name)
+{
+    const struct irb_option *o;
+    for (int i = 0; (o = irb_trial_option(method, i)); i++)
+        if (!strcmp(o->name, name))
+            return i;
+    return -1;
+}
+
+int irb_trial_rsm_resolution(const struct irb_trial *trial,
+                             const struct irb_render_settings *render)
+{
+    return trial->core.rsm_resolution ? trial->core.rsm_resolution : render->rsm_resolution;
+}
+
+void irb_trial_hash_core(const struct irb_trial *trial, struct irb_hash *hash)
+{
+    for (const struct irb_option *o = irb_trial_options; o->name; o++) {
+        struct irb_str text = {0};
+        if (irb_option_is_default(o, &trial->core))
+            continue;
+        irb_str_printf(&text, "%s=", o->name);
+        irb_option_print(o, &trial->core, &text);
+        irb_hash_string(hash, irb_str_text(&text));
+        irb_str_free(&text);
+    }
+}
+
+bool irb_trial_refuse_track(const struct irb_option *option, struct irb_error *err)
+{
+    return irb_fail(err, IRB_E_INPUT,
+                    "%s: expected one value, found keys; it stays the same over the sequence",
+                    option->name);
+}
+
+/* ---- the trial ---- */
 
 bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
                      struct irb_error *err)
@@ -18,6 +85,7 @@ bool irb_trial_begin(struct irb_trial *trial, const struct irb_method *method,
                         method->name);
     *trial = (struct irb_trial){.method = method, .params = params};
     irb_options_default(method->params, params);
+    irb_options_default(irb_trial_options, &trial->core);
     irb_trial_rename(trial);
     return true;
 }
@@ -26,7 +94,8 @@ void irb_trial_rename(struct irb_trial *trial)
 {
     struct irb_str name = {0};
     irb_str_printf(&name, "%s", trial->method->name);
-    for (const struct irb_option *o = trial->method->params; o->name; o++) {
+    const struct irb_option *o;
+    for (int i = 0; (o = irb_trial_option(trial->method, i)); i++) {
         if (irb_trial_is_default(trial, o))
             continue;
         irb_str_printf(&name, ":%s=", o->name);
@@ -40,6 +109,11 @@ bool irb_trial_set(struct irb_trial *trial, const char *name, const char *text,
                    struct irb_error *err)
 {
     const struct irb_method *method = trial->method;
+    const struct irb_option *core = irb_option_find(irb_trial_options, name);
+    if (core && !irb_option_find(method->params, name))
+        return irb_track_is_text(text)
+                   ? irb_trial_refuse_track(core, err)
+                   : irb_option_set(irb_trial_options, &trial->core, name, text, err);
     if (!method->params->name)
         return irb_fail(err, IRB_E_INPUT, "unknown key '%.64s'; %s has no parameters", name,
                         method->name);

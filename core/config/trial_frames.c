@@ -69,10 +69,12 @@ static bool check_trial(const struct irb_trial *trial, int frames,
 bool irb_config_check_trials(const struct irb_config *config, struct irb_error *err)
 {
     const struct irb_render_settings *render = &config->render;
-    const struct irb_frame_sizes sizes = {render->width, render->height, render->rsm_resolution};
-    for (int i = 0; i < config->trial_count; i++)
-        if (config->trials[i].method->check &&
-            !check_trial(&config->trials[i], render->frames, &sizes, err))
+    for (int i = 0; i < config->trial_count; i++) {
+        const struct irb_trial *trial = &config->trials[i];
+        const struct irb_frame_sizes sizes = {render->width, render->height,
+                                              irb_trial_rsm_resolution(trial, render)};
+        if (trial->method->check && !check_trial(trial, render->frames, &sizes, err))
             return false;
+    }
     return true;
 }

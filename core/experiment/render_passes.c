@@ -11,18 +11,44 @@
 /* Above this share of differing pixels the reference belongs to another image altogether. */
 static const double largest_masked_share = 0.05;
 
-/* The G-buffer and RSM that methods read, where their layout is not the full one. */
-static bool open_slim(struct irb_passes *p, struct irb_error *err)
+static struct irb_passes_rsm *find_rsm(const struct irb_passes *p, int resolution)
+{
+    for (int i = 0; i < p->rsm_count; i++)
+        if (p->rsms[i].resolution == resolution)
+            return &p->rsms[i];
+    return NULL;
+}
+
+static bool add_rsm(struct irb_passes *p, int resolution, struct irb_error *err)
 {
     const struct irb_render_settings *render = &p->run->config->render;
-    struct irb_gl *gl = p->run->gl;
-    return (render->gbuffer_layout == IRB_LAYOUT_FULL ||
-            (p->slim_gbuffer =
-                 irb_gbuffer_create_layout(gl, (enum irb_layout)render->gbuffer_layout,
-                                           render->width, render->height, err))) &&
-           (render->rsm_layout == IRB_LAYOUT_FULL ||
-            (p->slim_rsm = irb_rsm_create_layout(gl, (enum irb_layout)render->rsm_layout,
-                                                 render->rsm_resolution, err)));
+    enum irb_layout layout = (enum irb_layout)render->rsm_layout;
+    struct irb_passes_rsm *added = &p->rsms[p->rsm_count++];
+    *added = (struct irb_passes_rsm){.resolution = resolution,
+                                     .shared = layout == IRB_LAYOUT_FULL &&
+                                               resolution == render->rsm_resolution};
+    added->rsm =
+        added->shared ? p->rsm : irb_rsm_create_layout(p->run->gl, layout, resolution, err);
+    return added->rsm && (added->timer = irb_timer_create(p->run->gl, err));
+}
+
+/* The G-buffer and RSMs that methods read. */
+static bool open_for_methods(struct irb_passes *p, struct irb_error *err)
+{
+    const struct irb_config *config = p->run->config;
+    const struct irb_render_settings *render = &config->render;
+    enum irb_layout layout = (enum irb_layout)render->gbuffer_layout;
+    p->rsms = calloc((size_t)config->trial_count, sizeof *p->rsms);
+    if (!p->rsms)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", config->trial_count);
+    for (int i = 0; i < config->trial_count; i++) {
+        int resolution = irb_trial_rsm_resolution(&config->trials[i], render);
+        if (!find_rsm(p, resolution) && !add_rsm(p, resolution, err))
+            return false;
+    }
+    return layout == IRB_LAYOUT_FULL ||
+           (p->slim_gbuffer =
+                irb_gbuffer_create_layout(p->run->gl, layout, render->width, render->height, err));
 }
 
 bool irb_passes_open(struct irb_passes *p, struct irb_error *err)
@@ -37,7 +63,7 @@ bool irb_passes_open(struct irb_passes *p, struct irb_error *err)
            (p->gbuffer = irb_gbuffer_create(gl, render->width, render->height, err)) &&
            (p->rsm = irb_rsm_create(gl, render->rsm_resolution, err)) &&
            (p->direct = irb_direct_create(gl, render->width, render->height, err)) &&
-           open_slim(p, err) && (p->timer = irb_timer_create(gl, err));
+           open_for_methods(p, err) && (p->timer = irb_timer_create(gl, err));
 }
 
 void irb_passes_close(struct irb_passes *p)
@@ -45,7 +71,12 @@ void irb_passes_close(struct irb_passes *p)
     free(p->stored);
     irb_timer_destroy(p->timer);
     irb_direct_destroy(p->direct);
-    irb_rsm_destroy(p->slim_rsm);
+    for (int i = 0; i < p->rsm_count; i++) {
+        irb_timer_destroy(p->rsms[i].timer);
+        if (!p->rsms[i].shared)
+            irb_rsm_destroy(p->rsms[i].rsm);
+    }
+    free(p->rsms);
     irb_rsm_destroy(p->rsm);
     irb_gbuffer_destroy(p->slim_gbuffer);
     irb_gbuffer_destroy(p->gbuffer);
@@ -57,31 +88,41 @@ const struct irb_gbuffer *irb_passes_gbuffer(const struct irb_passes *p)
     return p->slim_gbuffer ? p->slim_gbuffer : p->gbuffer;
 }
 
-const struct irb_rsm *irb_passes_rsm(const struct irb_passes *p)
+const struct irb_passes_rsm *irb_passes_rsm(const struct irb_passes *p,
+                                            const struct irb_trial *trial)
 {
-    return p->slim_rsm ? p->slim_rsm : p->rsm;
+    return find_rsm(p, irb_trial_rsm_resolution(trial, &p->run->config->render));
 }
 
-/* Of a G-buffer or RSM in two layouts the one that methods read is timed: the other is the
- * harness's own. */
+/* Those of the methods, each on its own time; and the harness's, unless it is one of them. */
+static bool render_rsms(struct irb_passes *p, const struct irb_light *light, struct irb_error *err)
+{
+    double ms[IRB_MAX_STAGES];
+    bool ok = true, shared = false;
+    for (int i = 0; ok && i < p->rsm_count; i++) {
+        struct irb_passes_rsm *rsm = &p->rsms[i];
+        IRB_TIMED(ok, rsm->timer, IRB_CORE_RSM, irb_rsm_render(rsm->rsm, p->scene, light, err));
+        irb_timer_collect(rsm->timer, ms);
+        rsm->ms = ms[IRB_CORE_RSM];
+        shared = shared || rsm->shared;
+    }
+    return ok && (shared || irb_rsm_render(p->rsm, p->scene, light, err));
+}
+
+/* Of a G-buffer in two layouts the one that methods read is timed: the other is the harness's own.
+ */
 bool irb_passes_render(struct irb_passes *p, int frame, struct irb_error *err)
 {
     const struct irb_sequence_frame *pose = &p->sequence->frames[frame < 0 ? 0 : frame];
     struct irb_gbuffer *gbuffer = p->slim_gbuffer ? p->slim_gbuffer : p->gbuffer;
-    struct irb_rsm *rsm = p->slim_rsm ? p->slim_rsm : p->rsm;
     bool ok = irb_sequence_pose(p->sequence, frame, err) && irb_scene_gl_update(p->scene, err);
-    irb_timer_begin(p->timer, IRB_CORE_GBUFFER);
-    ok = ok && irb_gbuffer_render(gbuffer, p->scene, &pose->camera, err);
-    irb_timer_end(p->timer);
-    irb_timer_begin(p->timer, IRB_CORE_RSM);
-    ok = ok && irb_rsm_render(rsm, p->scene, &pose->light, err);
-    irb_timer_end(p->timer);
+    IRB_TIMED(ok, p->timer, IRB_CORE_GBUFFER,
+              irb_gbuffer_render(gbuffer, p->scene, &pose->camera, err));
     ok = ok &&
          (gbuffer == p->gbuffer || irb_gbuffer_render(p->gbuffer, p->scene, &pose->camera, err)) &&
-         (rsm == p->rsm || irb_rsm_render(p->rsm, p->scene, &pose->light, err));
-    irb_timer_begin(p->timer, IRB_CORE_DIRECT);
-    ok = ok && irb_direct_render(p->direct, p->gbuffer, p->rsm, &pose->light, &pose->camera, err);
-    irb_timer_end(p->timer);
+         render_rsms(p, &pose->light, err);
+    IRB_TIMED(ok, p->timer, IRB_CORE_DIRECT,
+              irb_direct_render(p->direct, p->gbuffer, p->rsm, &pose->light, &pose->camera, err));
     irb_timer_collect(p->timer, p->ms);
     return ok;
 }

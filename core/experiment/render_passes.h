@@ -11,17 +11,27 @@
 #include "core/frame/rsm.h"
 #include "core/gl/timer.h"
 
+/* A reflective shadow map that methods are given. */
+struct irb_passes_rsm {
+    int resolution; /* texels a side */
+    struct irb_rsm *rsm;
+    bool shared; /* it is the passes' own, of the full layout */
+    struct irb_timer *timer;
+    double ms; /* of stage "rsm", in the frame rendered last */
+};
+
 struct irb_passes {
     struct irb_run *run; /* borrowed, and below; all else is owned */
     struct irb_sequence *sequence;
     struct irb_scene_gl *scene;
-    struct irb_gbuffer *gbuffer; /* full precision: direct light, masks */
-    struct irb_rsm *rsm;
+    struct irb_gbuffer *gbuffer;      /* full precision: direct light, masks */
+    struct irb_rsm *rsm;              /* likewise, of the config's resolution */
     struct irb_gbuffer *slim_gbuffer; /* what methods get instead, NULL where they get the full */
-    struct irb_rsm *slim_rsm;
+    struct irb_passes_rsm *rsms;      /* one a resolution that trials have */
+    int rsm_count;
     struct irb_direct *direct;
     struct irb_timer *timer;
-    double ms[IRB_MAX_STAGES]; /* of the core's stages, in the frame rendered last */
+    double ms[IRB_MAX_STAGES]; /* of the core's other stages, in the frame rendered last */
     bool *stored;              /* frames whose files have been seen to */
 };
 
@@ -36,8 +46,9 @@ bool irb_passes_render(struct irb_passes *passes, int frame, struct irb_error *e
  * whose mask is written; nothing where this has been done. */
 bool irb_passes_store(struct irb_passes *passes, int frame, struct irb_error *err);
 
-/* What methods are given. */
+/* What methods are given; the RSM by the trial's resolution. */
 const struct irb_gbuffer *irb_passes_gbuffer(const struct irb_passes *passes);
-const struct irb_rsm *irb_passes_rsm(const struct irb_passes *passes);
+const struct irb_passes_rsm *irb_passes_rsm(const struct irb_passes *passes,
+                                            const struct irb_trial *trial);
 
 #endif

@@ -56,10 +56,13 @@ static char *params_json(const struct irb_trial *trial)
 {
     struct irb_str json = {0}, value = {0};
     irb_str_printf(&json, "{");
-    for (const struct irb_option *o = trial->method->params; o->name; o++) {
+    const struct irb_option *o;
+    for (int i = 0; (o = irb_trial_option(trial->method, i)); i++) {
+        if (irb_trial_option_is_core(o) && irb_trial_is_default(trial, o))
+            continue;
         value.length = 0;
         irb_trial_print(trial, o, &value);
-        irb_str_printf(&json, "%s\"%s\": ", o == trial->method->params ? "" : ", ", o->name);
+        irb_str_printf(&json, "%s\"%s\": ", json.length == 1 ? "" : ", ", o->name);
         if (o->type == IRB_TYPE_ENUM || irb_trial_has_track(trial, o))
             irb_str_json_string(&json, irb_str_text(&value));
         else
@@ -193,7 +196,7 @@ static bool render(struct irb_trial_run *trial, struct irb_passes *passes, int f
         .light = &pose->light,
         .camera = &pose->camera,
         .gbuffer = irb_passes_gbuffer(passes),
-        .rsm = irb_passes_rsm(passes),
+        .rsm = irb_passes_rsm(passes, trial->trial)->rsm,
         .frame = frame,
         .seed = (uint64_t)trial->trial->seed,
         .params = trial->params,
@@ -240,7 +243,9 @@ static int list_stages(const struct irb_trial_run *trial, const struct irb_passe
 {
     int count = 0;
     for (int i = 0; i < IRB_CORE_STAGE_COUNT; i++)
-        out[count++] = (struct irb_store_value){irb_core_stages[i], passes->ms[i]};
+        out[count++] = (struct irb_store_value){
+            irb_core_stages[i],
+            i == IRB_CORE_RSM ? irb_passes_rsm(passes, trial->trial)->ms : passes->ms[i]};
     const char *const *names = trial->trial->method->stages;
     for (int i = 0; names[i] && i < IRB_MAX_STAGES; i++)
         out[count++] = (struct irb_store_value){names[i], ms[i]};

@@ -66,6 +66,54 @@ errors() {
     failures=$((failures + 1))
 }
 
+# A trial's own reflective shadow map is what the method would get from the config's; each has its
+# own time. In the slim layout too.
+for layout in full slim; do
+    cat >"$work/maps.yaml" <<YAML
+name: maps
+scene: cornell
+resolution: [24, 18]
+frames: 2
+rsm_resolution: 16
+rsm_layout: $layout
+seed: 1
+reference: {min_samples: 4, max_samples: 4, bounces: 1}
+trials:
+  - rsm: {mode: all, rsm_resolution: [8, 32, 16]}
+  - rsm: {mode: all}
+YAML
+    check "own maps" "$IRBENCH" run "$work/maps.yaml" --out "$work/maps-$layout"
+    check "the config's map" "$IRBENCH" run "$work/maps.yaml" --set rsm_resolution=32 --only rsm:mode=all \
+        --out "$work/map-$layout"
+    "$IRBENCH" table "$work/maps-$layout" --format csv >"$work/maps.csv"
+    column() { # column FILE NAME TRIAL
+        awk -F, -v name="$2" -v trial="$3" '
+            NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i }
+            NR > 1 && $3 == trial { print $c }' "$1"
+    }
+    "$IRBENCH" table "$work/map-$layout" --format csv >"$work/map.csv"
+    checks=$((checks + 3))
+    own=$(column "$work/maps.csv" indirect_rmse rsm:mode=all:rsm_resolution=32)
+    [ -n "$own" ] && [ "$own" = "$(column "$work/map.csv" indirect_rmse rsm:mode=all)" ] || {
+        echo "FAIL: $layout: a trial's own map gives $own, not what the config's does"
+        failures=$((failures + 1))
+    }
+    same=$(column "$work/maps.csv" full_rmse rsm:mode=all:rsm_resolution=16)
+    [ "$same" = "$(column "$work/maps.csv" full_rmse rsm:mode=all)" ] && [ "$same" != "$(column "$work/maps.csv" full_rmse rsm:mode=all:rsm_resolution=8)" ] || {
+        echo "FAIL: $layout: of the config's resolution it is the config's"
+        failures=$((failures + 1))
+    }
+    [ "$(column "$work/maps.csv" stage_rsm_ms rsm:mode=all:rsm_resolution=8)" != "$(column "$work/maps.csv" stage_rsm_ms rsm:mode=all)" ] || {
+        echo "FAIL: $layout: maps have one time"
+        failures=$((failures + 1))
+    }
+done
+checks=$((checks + 1))
+"$IRBENCH" table "$work/maps-full" --format json | grep -q '"rsm_resolution": 32' || {
+    echo "FAIL: the parameter is not in the table"
+    failures=$((failures + 1))
+}
+
 # every line on stderr is an object that says what it is, and the last one says where the run is
 if command -v python3 >/dev/null; then
     checks=$((checks + 1))

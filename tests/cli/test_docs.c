@@ -44,6 +44,7 @@ static void test_options_are_documented(void **state)
     expect_options("config key", irb_render_options);
     expect_options("config key", irb_output_options);
     expect_options("config key reference.", irb_reference_options);
+    expect_options("parameter of every trial", irb_trial_options);
     for (const struct irb_documented_section *s = irb_documented_sections; s->title; s++)
         for (const struct irb_documented_key *key = s->keys; key->name; key++) {
             expect_words(s->title, key->name, "doc", key->doc);

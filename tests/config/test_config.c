@@ -353,9 +353,16 @@ static void test_tracks(void **state)
                                         "rsm:shared=true@0+false@3", "rsm:samples=5@0+7@1", NULL});
     /* as an item of a list, and in a matrix; a plain value after it has no keys */
     expect_trials(
+        "  - plain: {rsm_resolution: [64, 32]}\n"
+        "  - rsm: {rsm_resolution: [64, 32], samples: [8, 9], shared: false}\n"
         "  - rsm: {samples: [{keys: [[0, 1], [2, 3]]}, 9], mode: all}\n"
         "  - rsm: {samples: {keys: [[0, 4], [2, 3]]}, matrix: [{clamp: 1}, {samples: 8}]}\n",
-        (const char *const[]){"rsm:mode=all:samples=1@0+3@2", "rsm:mode=all:samples=9",
+        (const char *const[]){"plain:rsm_resolution=64", "plain:rsm_resolution=32",
+                              "rsm:samples=8:shared=false:rsm_resolution=64",
+                              "rsm:samples=8:shared=false:rsm_resolution=32",
+                              "rsm:samples=9:shared=false:rsm_resolution=64",
+                              "rsm:samples=9:shared=false:rsm_resolution=32",
+                              "rsm:mode=all:samples=1@0+3@2", "rsm:mode=all:samples=9",
                               "rsm:samples=4@0+3@2:clamp=1", "rsm:samples=8", NULL});
 }
 
@@ -455,6 +462,8 @@ static void test_key(void **state)
         "scene: cornell\ntrials: ['rsm:samples=1']",
         "scene: cornell\ntrials: [rsm, 'rsm:samples=1']",
         "scene: cornell\ntrials: [plain]",
+        "scene: cornell\ntrials: ['plain:rsm_resolution=64']",
+        "scene: cornell\ntrials: ['plain:rsm_resolution=512']",
         "scene: sphere\ntrials: [rsm]",
         "scenes: [{scene: cornell, name: x}]\ntrials: [rsm]",
         "scene: cornell\nlight: {intensity: 9}\ntrials: [rsm]",

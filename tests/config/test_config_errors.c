@@ -447,6 +447,12 @@ static void test_trials(void **state)
     expect_trial("rsm: {mod: all}", "@:3:11: rsm: unknown key 'mod'; did you mean 'mode'?");
     expect_trial("rsm: {mode: al}",
                  "@:3:17: rsm: mode: expected one of all, uniform, importance; found 'al'");
+    expect_trial("rsm: {rsm_resolution: [64, 9000]}",
+                 "@:3:32: rsm: rsm_resolution: expected a whole number in [0, 8192] texels; found "
+                 "'9000'");
+    expect_trial("rsm: {rsm_resolution: {keys: [[0, 64], [2, 32]]}}",
+                 "@:3:27: rsm_resolution: expected one value, found keys; it stays the same over "
+                 "the sequence");
     expect_trial("rsm: {clamp: 1e9}",
                  "@:3:18: rsm: clamp: expected a number in [0, 10] m; found '1e9'");
     expect_trial("rsm: {samples: [4, [9]]}",
@@ -599,6 +605,10 @@ static void test_parameters_together(void **state)
     expect_together("  - rsm:mode=importance:samples=9@0+70@20",
                     "@:5:5: trial 'rsm:mode=importance:samples=9@0+70@20': frame 20: samples: "
                     "expected at most 64, found 70");
+    /* with the trial's own RSM */
+    expect_together("  - rsm:mode=importance:samples=17:rsm_resolution=4",
+                    "@:5:5: trial 'rsm:mode=importance:samples=17:rsm_resolution=4': samples: "
+                    "expected at most 16, found 17");
     /* with what --set makes of it */
     static const char text[] = "scene: cornell\ntrials: ['rsm:mode=importance']\n";
     expect_bytes(text, sizeof text - 1, (const char *const[]){"rsm_resolution=16", NULL},

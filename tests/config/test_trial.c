@@ -38,6 +38,45 @@ static void test_names(void **state)
                 "rsm:mode=importance:samples=9:clamp=0.3");
     expect_name("rsm:shared=no", "rsm:shared=false");
     expect_name("plain", "plain");
+    /* the core's behind the method's own, and of methods without any */
+    expect_name("rsm:rsm_resolution=256:mode=all", "rsm:mode=all:rsm_resolution=256");
+    expect_name("plain:rsm_resolution=8192", "plain:rsm_resolution=8192");
+    expect_name("plain:rsm_resolution=0", "plain");
+}
+
+/* The trial's own resolution, else the config's. */
+static void test_rsm_resolution(void **state)
+{
+    (void)state;
+    const struct irb_render_settings render = {.rsm_resolution = 512};
+    struct irb_trial trial;
+    struct irb_error err = {0};
+    REQUIRE_OK(irb_trial_parse(&trial, "rsm:rsm_resolution=64", &mock_registry, &err));
+    assert_int_equal(irb_trial_rsm_resolution(&trial, &render), 64);
+    irb_trial_destroy(&trial);
+    REQUIRE_OK(irb_trial_parse(&trial, "rsm", &mock_registry, &err));
+    assert_int_equal(irb_trial_rsm_resolution(&trial, &render), 512);
+    assert_int_equal(irb_trial_option_find(&mock_rsm, "shared"), 3);
+    assert_int_equal(irb_trial_option_find(&mock_rsm, "rsm_resolution"), 4);
+    assert_int_equal(irb_trial_option_find(&mock_rsm, "settle"), -1);
+    assert_null(irb_trial_option(&mock_rsm, 5));
+    assert_ptr_equal(irb_trial_option(&mock_plain, 0), irb_trial_options);
+    assert_true(irb_trial_option_is_core(irb_trial_option(&mock_rsm, 4)));
+    assert_false(irb_trial_option_is_core(irb_trial_option(&mock_rsm, 3)));
+    irb_trial_destroy(&trial);
+    /* a method's own parameter of the name is the method's */
+    static const struct irb_option own[] = {
+        IRB_OPTION_INT(struct mock_params, samples, 9, 1, 10, "", "", ""), IRB_OPTION_END};
+    struct irb_option renamed[2] = {own[0], own[1]};
+    renamed[0].name = "rsm_resolution";
+    const struct irb_method method = {
+        .name = "own", .params = renamed, .params_size = sizeof(struct mock_params)};
+    const struct irb_registry registry = {.methods = {&method}, .count = 1};
+    REQUIRE_OK(irb_trial_parse(&trial, "own:rsm_resolution=10", &registry, &err));
+    assert_int_equal(((const struct mock_params *)trial.params)->samples, 10);
+    assert_int_equal(irb_trial_rsm_resolution(&trial, &render), 512);
+    assert_null(irb_trial_option(&method, 1));
+    irb_trial_destroy(&trial);
 }
 
 static void test_values(void **state)
@@ -160,6 +199,14 @@ static void test_refusals(void **state)
     expect_refusal("rsm:mod=all", "unknown key 'mod'; did you mean 'mode'?");
     expect_refusal("rsm:mode=al", "mode: expected one of all, uniform, importance; found 'al'");
     expect_refusal("rsm:samples=0", "samples: expected a whole number in [1, 4096]; found '0'");
+    expect_refusal("rsm:rsm_resolution=-1",
+                   "rsm_resolution: expected a whole number in [0, 8192] texels; found '-1'");
+    expect_refusal("plain:rsm_resolution=8193",
+                   "rsm_resolution: expected a whole number in [0, 8192] texels; found '8193'");
+    expect_refusal(
+        "rsm:rsm_resolution=32@0+64@4",
+        "rsm_resolution: expected one value, found keys; it stays the same over the sequence");
+    expect_refusal("plain:mode=all", "unknown key 'mode'; plain has no parameters");
     expect_refusal("rsm:clamp=-1", "clamp: expected a number in [0, 10] m; found '-1'");
     expect_refusal("rsm:", "expected option=value, found ''");
     expect_refusal("rsm::mode=all", "expected option=value, found ''");
@@ -190,9 +237,10 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names),       cmocka_unit_test(test_values),
-        cmocka_unit_test(test_track_names), cmocka_unit_test(test_track_values),
-        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_what_follows),
+        cmocka_unit_test(test_rsm_resolution), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_values),         cmocka_unit_test(test_track_names),
+        cmocka_unit_test(test_track_values),   cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_what_follows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
