@@ -58,6 +58,10 @@ static void json_progress(struct irb_log *log, const char *what, double fraction
     irb_str_json_string(&object, what);
     irb_str_printf(&object, ", \"fraction\": %.4f, \"left_s\": ", fraction);
     irb_str_json_number(&object, round(10 * left_s) / 10); /* tenths say enough */
+    if (log->run.known) {
+        irb_str_printf(&object, ", \"run_fraction\": %.4f, \"run_left_s\": ", log->run.fraction);
+        irb_str_json_number(&object, round(10 * log->run.left_s) / 10);
+    }
     write_json(log, &object);
 }
 
@@ -107,9 +111,19 @@ void irb_log_write(struct irb_log *log, enum irb_log_level level, const char *fo
     fputs(log->colour ? "\033[0m\n" : "\n", log->out);
 }
 
+static int print_left(char *out, size_t size, const char *before, double seconds)
+{
+    long s = lround(seconds);
+    return snprintf(out, size, "%s  %ld:%02ld left", before, s / 60, s % 60);
+}
+
 void irb_log_progress(struct irb_log *log, const char *what, double fraction, double elapsed_s)
 {
-    if (!log || log->level < IRB_LOG_INFO)
+    if (!log)
+        return;
+    if (log->watch)
+        log->watch(log->watcher, fraction);
+    if (log->level < IRB_LOG_INFO)
         return;
     double now = irb_clock_s();
     double interval = log->json           ? json_interval_s
@@ -124,10 +138,14 @@ void irb_log_progress(struct irb_log *log, const char *what, double fraction, do
                       fraction > 0 ? elapsed_s * (1 - fraction) / fraction : NAN);
         return;
     }
-    char left[32] = "";
-    if (fraction > 0.01) {
-        long s = lround(elapsed_s * (1 - fraction) / fraction);
-        snprintf(left, sizeof left, "  %ld:%02ld left", s / 60, s % 60);
+    char left[96] = "";
+    int length = 0;
+    if (fraction > 0.01)
+        length = print_left(left, sizeof left, "", elapsed_s * (1 - fraction) / fraction);
+    if (log->run.known && length >= 0) {
+        char run[32];
+        snprintf(run, sizeof run, "   run %3.0f %%", 100 * log->run.fraction);
+        print_left(left + length, sizeof left - (size_t)length, run, log->run.left_s);
     }
     if (!log->progress_bar) {
         fprintf(log->out, "%s %3.0f %%%s\n", what, 100 * fraction, left);

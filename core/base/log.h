@@ -6,6 +6,8 @@
  * With `json` every message is one line, a JSON object, for programs that watch a run:
  *
  *     {"event": "progress", "what": "render", "fraction": 0.3700, "left_s": 12}
+ *                                                     of a whole run also "run_fraction",
+ * "run_left_s"
  *     {"event": "info", "message": "..."}             also "warning" and "debug"
  *     {"event": "error", "code": "INPUT", "message": "..."}
  *     {"event": "done", "run": "results/runs/..."}    the last line of what went well
@@ -20,6 +22,15 @@
 
 enum irb_log_level { IRB_LOG_ERROR, IRB_LOG_WARNING, IRB_LOG_INFO, IRB_LOG_DEBUG };
 
+/* Of all the work that the part whose progress is shown belongs to. */
+struct irb_log_run {
+    bool known;
+    double fraction, left_s;
+};
+
+/* Is told of every call of irb_log_progress(), also of those that show nothing. */
+typedef void (*irb_log_watch_fn)(void *watcher, double fraction);
+
 struct irb_log {
     FILE *out;                /* borrowed, usually stderr */
     enum irb_log_level level; /* messages above this are dropped */
@@ -28,6 +39,9 @@ struct irb_log {
     bool progress_bar;        /* `out` is a terminal: progress is redrawn in place */
     bool bar_shown;           /* a progress line is on the screen and has to be cleared first */
     double last_progress_s;   /* monotonic time of the last progress line */
+    struct irb_log_run run;   /* shown behind the progress of a part */
+    irb_log_watch_fn watch;   /* may be NULL */
+    void *watcher;
 };
 
 /* stderr, IRB_LOG_INFO, colour and bar as the terminal and NO_COLOR allow. */

@@ -40,6 +40,7 @@ struct irb_cli {
     enum irb_backend backend;
     int threads;     /* --threads, 0 = all cores */
     unsigned stages; /* --stage, all by default */
+    double minutes;  /* --minutes, 0 = no limit */
     bool keep_all, key;
     bool per_seed;                  /* --per-seed */
     enum irb_table_subject subject; /* --stages, --statistics, --frames */

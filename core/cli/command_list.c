@@ -11,10 +11,14 @@ const struct irb_command irb_commands[] = {
      "  irbench run experiments/quick.yaml\n"
      "  irbench run experiments/quick.yaml --set frames=2 --set reference.noise=0.05 --out /tmp/q\n"
      "  irbench run experiments/quick.yaml --only rsm:mode=uniform:samples=100\n"
+     "  irbench run experiments/quick.yaml --set seeds=20 --minutes 30\n"
      "  irbench run experiments/quick.yaml --debug-layers --keep all\n",
      irb_command_run},
     {"table", "RUN", 1, 1, "print the results of a run folder",
-     "\nReads the run's database, also while a run writes it. Instead of the scores, --stages "
+     "\nReads the run's database, also while a run writes it: then the first line says how far it "
+     "is, "
+     "and\n"
+     "rows are of the frames that are there. Instead of the scores, --stages "
      "prints "
      "the\n"
      "median time of every stage and --statistics the mean of what methods report of their frames, "

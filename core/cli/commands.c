@@ -48,6 +48,7 @@ static struct irb_run_options run_options(struct irb_cli *cli)
         .stages = cli->stages,
         .only = cli->only,
         .only_count = cli->only_count,
+        .minutes = cli->minutes,
         .keep_all = cli->keep_all,
         .command_line = cli->command_line,
         .log = &cli->log,

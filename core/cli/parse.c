@@ -99,6 +99,17 @@ static bool set_keep(struct irb_cli *cli, const char *value, struct irb_error *e
     return true;
 }
 
+static bool set_minutes(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    char *end;
+    double minutes = strtod(value, &end);
+    if (end == value || *end || !(minutes > 0 && minutes <= 1e6))
+        return irb_fail(err, IRB_E_USAGE, "--minutes: expected a number above 0; found '%s'",
+                        value);
+    cli->minutes = minutes;
+    return true;
+}
+
 static bool set_format(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)err;
@@ -214,6 +225,9 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--seed", NULL, "N", "run with this seed instead of the config's", set_seed},
     {"--only", NULL, "TRIAL", "run only this trial (may be repeated)", set_only},
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
+    {"--minutes", NULL, "N",
+     "run: begin no new round (a pass with one seed) after N minutes but each scene's first",
+     set_minutes},
     {"--keep", NULL, "WHICH", "images to keep: some (first, middle, worst, last) or all", set_keep},
     {"--debug-layers", NULL, NULL,
      "keep the methods' debug layers with the images; short for --set debug_layers=true",

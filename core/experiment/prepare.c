@@ -79,9 +79,11 @@ static bool prepare_reference(struct irb_run *run, const struct irb_tracer *trac
         .log = run->log,
         .stop = run->options->stop,
     };
-    bool ok = irb_gbuffer_image_load(&gbuffer, gbuffer_path, err) &&
-              irb_reference_render(&job, &image, err) &&
-              irb_reference_image_save(&image, path, frame->reference.hex, err);
+    bool ok = irb_gbuffer_image_load(&gbuffer, gbuffer_path, err);
+    irb_run_watch(run, true);
+    ok = ok && irb_reference_render(&job, &image, err);
+    irb_run_watch(run, false);
+    ok = ok && irb_reference_image_save(&image, path, frame->reference.hex, err);
     if (ok) {
         unlink(checkpoint);
         irb_debug(run->log, "  %d samples a pixel, noise %.3g, %.1f s, %.1f M rays/s",
@@ -126,6 +128,7 @@ bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
     int missing = 0;
     for (int i = 0; i < sequence->frame_count; i++)
         missing += reference_missing(run, &sequence->frames[i]);
+    irb_progress_skip(&run->progress, IRB_PROGRESS_REFERENCE, sequence->frame_count - missing);
     if (!missing) {
         irb_info(run->log, "%s: %d reference frames, all cached", sequence->entry->name,
                  sequence->frame_count);
@@ -136,6 +139,7 @@ bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
     bool ok = true;
     double start = irb_clock_s();
     int done = 0;
+    irb_run_begin(run, IRB_PROGRESS_REFERENCE, "references of %s", sequence->entry->name);
     for (int i = 0; ok && i < sequence->frame_count; i++) {
         if (!reference_missing(run, &sequence->frames[i])) /* an equal frame may have made it */
             continue;
@@ -143,8 +147,12 @@ bool irb_prepare_references(struct irb_run *run, struct irb_sequence *sequence,
                  missing - done, sequence->frame_count);
         ok = !irb_run_stopped(run, err) && prepare_tracer(sequence, i, &tracer, &posed, err) &&
              prepare_reference(run, tracer, &sequence->frames[i], err);
+        if (ok)
+            irb_run_step(run, 1);
         done++;
     }
+    if (ok)
+        irb_progress_skip(&run->progress, IRB_PROGRESS_REFERENCE, missing - done);
     if (ok)
         irb_info(run->log, "%s: references took %.1f s", sequence->entry->name,
                  irb_clock_s() - start);

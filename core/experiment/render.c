@@ -58,30 +58,48 @@ static bool find_round(struct scene_run *scene, int index, struct irb_round *rou
     return irb_round_look(round, &scene->passes);
 }
 
+/* How many there are with something missing. */
 static int rounds_left(struct scene_run *scene, int rounds)
 {
     struct irb_round round;
     int left = 0;
-    for (int i = 0; i < rounds; i++)
-        left += find_round(scene, i, &round);
+    for (int i = 0; i < rounds; i++) {
+        if (find_round(scene, i, &round))
+            left++;
+        else
+            irb_round_skip(&round, &scene->passes);
+    }
     return left;
 }
 
+/* Those that there is time for; the first one in any case. */
 static bool render_rounds(struct scene_run *scene, int rounds, int left, struct irb_error *err)
 {
+    struct irb_run *run = scene->passes.run;
     struct irb_round round;
     double since_s = irb_clock_s();
-    int number = 0;
+    int number = 0, left_out = 0;
     bool ok = true;
     for (int i = 0; ok && i < rounds; i++) {
         if (!find_round(scene, i, &round))
             continue;
+        if (i && irb_clock_s() >= run->deadline_s) {
+            left_out++;
+            continue;
+        }
         round.number = number++;
         round.count = left;
         round.since_s = since_s;
         ok = irb_round_render(&round, &scene->passes, err);
     }
-    irb_log_progress_done(scene->passes.run->log);
+    irb_log_progress_done(run->log);
+    if (ok && left_out)
+        irb_warn(
+            run->log,
+            "%s: %.4g minutes are over: %d of %d rounds left out; the same command goes on with "
+            "them",
+            scene->passes.sequence->entry->name, run->options->minutes, left_out, rounds);
+    run->rounds_left_out += left_out;
     return ok;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/experiment/render_round.h"
 #include "core/base/clock.h"
+#include "core/base/str.h"
 
 bool irb_round_look(struct irb_round *round, const struct irb_passes *passes)
 {
@@ -75,11 +76,26 @@ static bool render_shared(const struct irb_round *round, struct irb_passes *pass
     return !for_files || irb_passes_store(passes, frame, err);
 }
 
+static bool turn(struct irb_trial_run *trial, struct irb_passes *passes, int frame,
+                 struct irb_error *err)
+{
+    struct irb_run *run = passes->run;
+    int units = irb_progress_trial_units(run->config, trial->trial);
+    if (irb_trial_run_needs_frame(trial, passes, frame)) {
+        if (!irb_trial_run_frame(trial, passes, frame, err))
+            return false;
+        irb_run_step(run, 1);
+    } else if (frame >= run->config->render.frames - units) {
+        irb_progress_skip(&run->progress, IRB_PROGRESS_RENDER, 1);
+    }
+    return true;
+}
+
 static bool render_frames(struct irb_round *round, struct irb_passes *passes, struct irb_error *err)
 {
     const struct irb_render_settings *render = &passes->run->config->render;
     struct irb_run *run = passes->run;
-    int first = -(render->settle > 1 ? render->settle : 1); /* one frame of warm-up at least */
+    int first = -(render->settle > IRB_WARM_UP_FRAMES ? render->settle : IRB_WARM_UP_FRAMES);
     for (int frame = first; frame < render->frames; frame++) {
         if (!render_shared(round, passes, frame, err))
             return false;
@@ -88,8 +104,7 @@ static bool render_frames(struct irb_round *round, struct irb_passes *passes, st
             struct irb_trial_run *trial = round->trials[which];
             if (irb_run_stopped(run, err))
                 return false;
-            if (irb_trial_run_needs_frame(trial, passes, frame) &&
-                !irb_trial_run_frame(trial, passes, frame, err))
+            if (!turn(trial, passes, frame, err))
                 return false;
             double done =
                 (frame - first + (place + 1.0) / round->trial_count) / (render->frames - first);
@@ -100,9 +115,33 @@ static bool render_frames(struct irb_round *round, struct irb_passes *passes, st
     return true;
 }
 
+static void say_what(const struct irb_round *round, struct irb_passes *passes)
+{
+    const struct irb_config *config = passes->run->config;
+    struct irb_str what = {0};
+    irb_str_printf(&what, "render %s", passes->sequence->entry->name);
+    if (config->seed_count > 1)
+        irb_str_printf(&what, ", seed %d of %d", round->index % config->seed_count + 1,
+                       config->seed_count);
+    if (config->repeats > 1)
+        irb_str_printf(&what, ", time %d of %d", round->repeat + 1, config->repeats);
+    irb_run_begin(passes->run, IRB_PROGRESS_RENDER, "%s", irb_str_text(&what));
+    irb_str_free(&what);
+}
+
+void irb_round_skip(const struct irb_round *round, struct irb_passes *passes)
+{
+    struct irb_run *run = passes->run;
+    for (int t = 0; t < round->trial_count; t++)
+        irb_progress_skip(&run->progress, IRB_PROGRESS_RENDER,
+                          irb_progress_trial_units(run->config, round->trials[t]->trial));
+}
+
 bool irb_round_render(struct irb_round *round, struct irb_passes *passes, struct irb_error *err)
 {
-    irb_run_work(passes->run, IRB_WORK_RENDER);
+    struct irb_run *run = passes->run;
+    irb_run_work(run, IRB_WORK_RENDER);
+    say_what(round, passes);
     bool ok = begin_trials(round, passes, err) && render_frames(round, passes, err);
     end_trials(round);
     return ok;

@@ -21,6 +21,9 @@ struct irb_round {
 /* Whether a frame of it is missing; looks at each trial. */
 bool irb_round_look(struct irb_round *round, const struct irb_passes *passes);
 
+/* That nothing of it is missing, for progress. */
+void irb_round_skip(const struct irb_round *round, struct irb_passes *passes);
+
 /* Renders what is missing. The states of the methods live no longer than the round. */
 bool irb_round_render(struct irb_round *round, struct irb_passes *passes, struct irb_error *err);
 

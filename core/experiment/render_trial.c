@@ -10,9 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Warm-up frames of a method that keeps no history: they only load caches and compile shaders. */
-enum { WARM_UP_FRAMES = 1 };
-
 static bool keeps_history(const struct irb_trial_run *trial)
 {
     return trial->needs & IRB_NEEDS_HISTORY;
@@ -124,7 +121,7 @@ bool irb_trial_run_needs_frame(const struct irb_trial_run *trial, const struct i
         return false;
     if (keeps_history(trial))
         return frame >= -passes->run->config->render.settle;
-    return frame < 0 ? frame >= -WARM_UP_FRAMES : !frame_done(trial, passes, frame);
+    return frame < 0 ? frame >= -IRB_WARM_UP_FRAMES : !frame_done(trial, passes, frame);
 }
 
 /* ---- state ---- */

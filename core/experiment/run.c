@@ -9,6 +9,7 @@
 #include "core/experiment/run_trials.h"
 #include "core/experiment/score_stage.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,6 +33,7 @@ static struct irb_run begin_run(const struct irb_config *config,
         .cache = irb_cache_dir(),
         .working = IRB_WORK_STARTUP,
         .since_s = irb_clock_s(),
+        .deadline_s = options->minutes > 0 ? irb_clock_s() + 60 * options->minutes : INFINITY,
     };
 }
 
@@ -144,6 +146,8 @@ static bool run_scenes(struct irb_run *run, struct irb_error *err)
     struct irb_config selected;
     bool ok = irb_run_trials(&selected, run->config, run->options, err);
     run->config = &selected;
+    if (ok)
+        run->progress = irb_progress_plan(&selected, run->options->stages);
     for (int i = 0; ok && i < selected.scene_count; i++)
         ok = run_scene(run, &selected.scenes[i], err);
     irb_run_trials_free(&selected);
@@ -154,14 +158,16 @@ bool irb_run_experiment(const struct irb_config *config, const struct irb_run_op
                         char **run_dir, struct irb_error *err)
 {
     struct irb_run run = begin_run(config, options);
-    bool ok = open_results(&run, err);
+    bool opened = open_results(&run, err);
     if (run.dir)
         *run_dir = irb_strdup(run.dir);
-    ok = ok && run_scenes(&run, err);
+    bool ok = opened && run_scenes(&run, err);
     run.config = config;
     irb_run_work(&run, IRB_WORK_STARTUP);
-    if (run.store && (ok || (err && err->code == IRB_E_INTERRUPTED))) {
-        struct irb_error late;
+    struct irb_error late;
+    if (opened && !irb_run_end(&run, ok && !run.rounds_left_out, ok ? err : &late))
+        ok = false;
+    if (opened && (ok || (err && err->code == IRB_E_INTERRUPTED))) {
         if (!irb_provenance_store_seconds(&run, ok ? err : &late))
             ok = false;
         report_seconds(&run);
@@ -185,6 +191,7 @@ bool irb_run_references(const struct irb_config *config, const struct irb_run_op
 {
     struct irb_run run = begin_run(config, options);
     bool ok = true;
+    run.progress = irb_progress_plan(config, IRB_STAGE_PREPARE);
     for (int i = 0; ok && i < config->scene_count; i++) {
         struct irb_sequence sequence;
         irb_run_work(&run, IRB_WORK_STARTUP);

@@ -85,7 +85,9 @@ bool irb_run_rendered_trials(struct irb_config *rendered, const struct irb_run *
     for (int i = 0; i < config->trial_count; i++)
         if (irb_trial_is_rendered(run, sequence, &config->trials[i]))
             rendered->trials[rendered->trial_count++] = config->trials[i];
-    if (rendered->trial_count && rendered->trial_count < config->trial_count)
+    /* of rounds that were left out there has been a warning */
+    if (rendered->trial_count && rendered->trial_count < config->trial_count &&
+        !run->rounds_left_out)
         irb_warn(run->log,
                  "%s: %d of %d trials, each seed counted, are not rendered to their end "
                  "and not scored; the same command goes on with them",

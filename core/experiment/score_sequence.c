@@ -132,28 +132,6 @@ int irb_worst_frame(const struct irb_frame_scores *frames, int count)
     return worst;
 }
 
-/* How the values of the frames become the sequence's. */
-enum aggregate { MEAN, ROOT_MEAN_SQUARE, SUM };
-
-static enum aggregate aggregate_of(int metric)
-{
-    switch (metric) {
-    case IRB_METRIC_indirect_rmse:
-    case IRB_METRIC_full_rmse:
-    case IRB_METRIC_solution_rmse:
-    case IRB_METRIC_claim_rmse:
-    case IRB_METRIC_indirect_flicker:
-    case IRB_METRIC_full_flicker:
-    case IRB_METRIC_reference_flicker:
-        return ROOT_MEAN_SQUARE;
-    case IRB_METRIC_non_finite:
-    case IRB_METRIC_negative:
-        return SUM;
-    default:
-        return MEAN;
-    }
-}
-
 /* Of the value that lies at `place` in frames[0]. */
 static double aggregate(const struct irb_frame_scores *frames, int count, int metric,
                         const double *place)
@@ -171,10 +149,10 @@ static double aggregate(const struct irb_frame_scores *frames, int count, int me
     }
     if (!n)
         return NAN;
-    switch (aggregate_of(metric)) {
-    case ROOT_MEAN_SQUARE:
+    switch (irb_metric_aggregate(metric)) {
+    case IRB_AGGREGATE_ROOT_MEAN_SQUARE:
         return sqrt(squares / n);
-    case SUM:
+    case IRB_AGGREGATE_SUM:
         return sum;
     default:
         return sum / n;

@@ -113,12 +113,13 @@ static bool store_fresh(struct scoring *s, struct irb_error *err)
     return true;
 }
 
-static bool anything_missing(const struct scoring *s, int frame)
+/* Trials of which the frame has no scores. */
+static int count_missing(const struct scoring *s, int frame)
 {
+    int missing = 0;
     for (int t = 0; t < s->trial_count; t++)
-        if (!irb_frame_scores_present(&s->trials[t].frames[frame]))
-            return true;
-    return false;
+        missing += !irb_frame_scores_present(&s->trials[t].frames[frame]);
+    return missing;
 }
 
 static bool score_one_frame(struct scoring *s, struct irb_error *err)
@@ -146,8 +147,12 @@ static bool score_frames(struct scoring *s, struct irb_error *err)
     for (s->frame = 0; s->frame < s->sequence->frame_count; s->frame++) {
         if (irb_run_stopped(s->run, err))
             return false;
-        if (anything_missing(s, s->frame) && !score_one_frame(s, err))
+        int missing = count_missing(s, s->frame);
+        irb_progress_skip(&s->run->progress, IRB_PROGRESS_SCORE, s->trial_count - missing);
+        if (missing && !score_one_frame(s, err))
             return false;
+        if (missing)
+            irb_run_step(s->run, missing);
         irb_log_progress(s->run->log, "score", (s->frame + 1.0) / s->sequence->frame_count,
                          irb_clock_s() - start);
     }
@@ -231,7 +236,7 @@ static bool anything_to_do(const struct scoring *s)
 {
     bool todo = false;
     for (int i = 0; !todo && i < s->sequence->frame_count; i++) {
-        todo = anything_missing(s, i);
+        todo = count_missing(s, i) > 0;
         for (int t = 0; !todo && t < s->trial_count; t++) {
             char *path = irb_run_file(s->run->dir, s->sequence->entry->name,
                                       s->trials[t].trial.trial->folder, "frame", i, "exr");
@@ -249,9 +254,13 @@ bool irb_score_sequence(struct irb_run *run, struct irb_sequence *sequence, stru
     bool ok = open_trials(&s, err);
     if (ok && anything_to_do(&s)) {
         irb_info(run->log, "%s: scoring %d trials", sequence->entry->name, s.trial_count);
+        irb_run_begin(run, IRB_PROGRESS_SCORE, "score %s", sequence->entry->name);
         ok = irb_target_constants_of(&s.constants, run, sequence, err) &&
              irb_target_constants_store(&s.constants, run, sequence, err) &&
              score_frames(&s, err) && store_sequences(&s, err) && keep_images(&s, err);
+    } else {
+        irb_progress_skip(&run->progress, IRB_PROGRESS_SCORE,
+                          (double)s.trial_count * sequence->frame_count);
     }
     close_scoring(&s);
     return ok;

@@ -7,6 +7,7 @@
 #define IRB_EXPERIMENT_STAGE_H
 
 #include "core/config/config.h"
+#include "core/experiment/progress.h"
 #include "core/experiment/sequence.h"
 #include "core/gl/context.h"
 #include "core/store/store.h"
@@ -18,6 +19,9 @@ enum irb_stage {
     IRB_STAGE_ALL = IRB_STAGE_PREPARE | IRB_STAGE_RENDER | IRB_STAGE_SCORE,
 };
 
+/* Of a method that keeps no history: they only load caches and compile shaders. */
+enum { IRB_WARM_UP_FRAMES = 1 };
+
 struct irb_run_options {
     const char *out; /* run folder; NULL = results/runs/NAME-KEY */
     enum irb_backend backend;
@@ -26,7 +30,8 @@ struct irb_run_options {
     unsigned stages;         /* enum irb_stage */
     const char *const *only; /* names of the trials to run; NULL or only_count 0 = all */
     int only_count;
-    bool keep_all; /* keep every frame's image, not only first, middle, worst and last */
+    double minutes; /* after these no new round begins but each scene's first; 0 = no limit */
+    bool keep_all;  /* keep every frame's image, not only first, middle, worst and last */
     const char *command_line;
     struct irb_log *log;               /* may be NULL */
     const volatile sig_atomic_t *stop; /* set on Ctrl-C; may be NULL */
@@ -51,6 +56,9 @@ struct irb_run {
     struct irb_gl *gl;       /* NULL until a stage needs it */
     struct irb_store *store; /* NULL in `irbench reference` */
     char *dir, *cache;       /* owned */
+    struct irb_progress progress;
+    double deadline_s;   /* by irb_clock_s(); infinite without a limit */
+    int rounds_left_out; /* for want of time */
     double seconds[IRB_WORK_COUNT];
     enum irb_work working; /* what the clock is running for */
     double since_s;
@@ -58,6 +66,17 @@ struct irb_run {
 
 /* From now on the time goes to `work`. */
 void irb_run_work(struct irb_run *run, enum irb_work work);
+/* What is being done now, for people ("render hall, seed 2 of 5"), and that its clock begins. */
+void irb_run_begin(struct irb_run *run, enum irb_progress_kind kind, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* `units` of it have been made. Progress goes to the log and, at most once a second, to meta
+ * "progress": {"fraction": 0.43, "left_s": 730, "what": "...", "at": "2026-01-31T12:00:00Z",
+ * "state": "running" or "stopped"}; "done" when all is. */
+void irb_run_step(struct irb_run *run, double units);
+/* While a unit is made that reports its own progress to the log: that counts as its share. */
+void irb_run_watch(struct irb_run *run, bool on);
+/* The end of the run, whole or not. */
+bool irb_run_end(struct irb_run *run, bool whole, struct irb_error *err);
 bool irb_run_stopped(const struct irb_run *run, struct irb_error *err);
 /* Creates the GL context if there is none yet. */
 bool irb_run_need_gl(struct irb_run *run, struct irb_error *err);

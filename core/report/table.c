@@ -9,6 +9,7 @@
 #include "core/report/table_frames.h"
 #include "core/report/table_latex.h"
 #include "core/report/table_measures.h"
+#include "core/report/table_partial.h"
 #include "core/report/table_text.h"
 
 #include <errno.h>
@@ -144,9 +145,17 @@ bool irb_table_check(const struct irb_table_options *options, struct irb_error *
 bool irb_table_write(FILE *out, struct irb_store *store, const struct irb_table_options *options,
                      struct irb_error *err)
 {
-    struct irb_str text = {0};
+    struct irb_str text = {0}, progress = {0};
     if (!irb_table_check(options, err))
         return false;
+    if (options->format == IRB_TABLE_LATEX)
+        irb_str_printf(&progress, "%% ");
+    if (options->format != IRB_TABLE_CSV && options->format != IRB_TABLE_JSON)
+        irb_table_progress(store, &progress);
+    if (strchr(irb_str_text(&progress), '\n'))
+        irb_str_printf(&text, "%s%s", irb_str_text(&progress),
+                       options->format == IRB_TABLE_LATEX ? "" : "\n");
+    irb_str_free(&progress);
     bool made = write_subject(store, options, &text, err);
     bool ok =
         made && fwrite(irb_str_text(&text), 1, text.length, out) == text.length && !fflush(out);

@@ -10,8 +10,12 @@
  * latex (for the package booktabs) show the metrics that matter most, grouped by scene, with the
  * best value of each column marked.
  *
- * Errors are those of the sequence; times are over the frames >= 0. A value that is not there is
- * null (json), empty (csv) or "-".
+ * Errors are those of the sequence; times are over the frames >= 0 of all repeats. A value that is
+ * not there is null (json), empty (csv) or "-".
+ *
+ * While a run is written, or after it was stopped, the first line of text, md and latex says how
+ * far it is, and rows are of the frames that are there: "(3 of 8 frames)" behind the trial's name.
+ * Of several seeds only those with the most frames make up the mean.
  *
  * Stages (in the order in which they run, the core's own first) and statistics have tables of the
  * same kinds. In text, md and latex there is one for each method of a scene, in csv and json one

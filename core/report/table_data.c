@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/report/table_data.h"
 #include "core/base/str.h"
+#include "core/report/table_partial.h"
 #include "core/score/metrics.h"
 
 #include <math.h>
@@ -208,7 +209,7 @@ static bool read_row(struct irb_table_data *data, struct irb_table_row *row,
     free(timing.stages);
     free(timing.frames.values);
     row->choices = scene_choices(store, row->trial->scene);
-    return ok;
+    return ok && irb_table_partial_read(row, store, err);
 }
 
 /* Gives every row an entry for every name. */
@@ -288,6 +289,7 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, b
         name_seeds(data);
     else
         irb_table_data_merge_seeds(data);
+    irb_table_partial_name(data);
     data->provenance = read_provenance(data, store);
     return true;
 }

@@ -21,6 +21,7 @@ struct irb_table_row {
         *trial; /* borrowed from the data; of several seeds the first */
     char *name; /* the trial's, with the seed behind it where rows differ by it alone; owned */
     int seeds;  /* whose mean the row is */
+    int frames, frames_of; /* that the row is of, and of the sequence; 0 where that is unknown */
     double metrics[IRB_METRIC_COUNT]; /* of the sequence; NaN where there is none */
     double spread[IRB_METRIC_COUNT];  /* standard deviation over the seeds; NaN below two of them */
     struct irb_values stage_ms;       /* medians */

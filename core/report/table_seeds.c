@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/report/table_data.h"
+#include "core/report/table_partial.h"
 
 #include <math.h>
 #include <string.h>
@@ -107,9 +108,10 @@ void irb_table_data_merge_seeds(struct irb_table_data *data)
     int kept = 0;
     for (int first = 0; first < data->row_count; kept++) {
         int count = gather(data, first);
-        if (count > 1)
-            merge(&data->rows[first], count);
-        data->has_spread = data->has_spread || count > 1;
+        int comparable = irb_table_partial_keep(&data->rows[first], count);
+        if (comparable > 1)
+            merge(&data->rows[first], comparable);
+        data->has_spread = data->has_spread || comparable > 1;
         data->rows[kept] = data->rows[first];
         first += count;
     }

@@ -58,3 +58,22 @@ double irb_metric_badness(int metric, double value)
     }
     return 0;
 }
+
+enum irb_aggregate irb_metric_aggregate(int metric)
+{
+    switch (metric) {
+    case IRB_METRIC_indirect_rmse:
+    case IRB_METRIC_full_rmse:
+    case IRB_METRIC_solution_rmse:
+    case IRB_METRIC_claim_rmse:
+    case IRB_METRIC_indirect_flicker:
+    case IRB_METRIC_full_flicker:
+    case IRB_METRIC_reference_flicker:
+        return IRB_AGGREGATE_ROOT_MEAN_SQUARE;
+    case IRB_METRIC_non_finite:
+    case IRB_METRIC_negative:
+        return IRB_AGGREGATE_SUM;
+    default:
+        return IRB_AGGREGATE_MEAN;
+    }
+}

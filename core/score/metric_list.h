@@ -133,6 +133,11 @@ int irb_region_metric_find(const char *name);
 /* "lower", "higher", "one", "zero", "none". */
 const char *irb_better_name(enum irb_better better);
 
+/* How the values of frames become a sequence's: those of the whole image and those of a region
+ * alike. PSNR, energy ratios and the lag are made of others instead. */
+enum irb_aggregate { IRB_AGGREGATE_MEAN, IRB_AGGREGATE_ROOT_MEAN_SQUARE, IRB_AGGREGATE_SUM };
+enum irb_aggregate irb_metric_aggregate(int metric);
+
 /* How far a value is from the best: smaller is better, whatever the metric; NaN stays NaN, and a
  * metric that ranks nothing gives 0. */
 double irb_metric_badness(int metric, double value);

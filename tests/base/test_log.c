@@ -114,13 +114,44 @@ static void test_progress(void **state)
         "{\"event\": \"progress\", \"what\": \"score\", \"fraction\": 0.0000, \"left_s\": null}\n");
 }
 
+static void add_up(void *sum, double fraction)
+{
+    *(double *)sum += fraction;
+}
+
+/* Of a whole run, behind the part's; and somebody who is told all. */
+static void test_run_progress(void **state)
+{
+    (void)state;
+    struct recorded r;
+    double sum = 0;
+    begin(&r, true, IRB_LOG_INFO);
+    r.log.run = (struct irb_log_run){.known = true, .fraction = 0.125, .left_s = 75};
+    r.log.watch = add_up;
+    r.log.watcher = &sum;
+    irb_log_progress(&r.log, "score", 1, 0);
+    irb_log_progress(&r.log, "score", 0.5, 1); /* too soon to be shown */
+    expect_all(
+        &r, "{\"event\": \"progress\", \"what\": \"score\", \"fraction\": 1.0000, \"left_s\": 0, "
+            "\"run_fraction\": 0.1250, \"run_left_s\": 75}\n");
+    begin(&r, false, IRB_LOG_INFO);
+    r.log.run = (struct irb_log_run){.known = true, .fraction = 0.125, .left_s = 75};
+    irb_log_progress(&r.log, "score", 0.5, 7);
+    expect_all(&r, "score  50 %  0:07 left   run  12 %  1:15 left\n");
+    begin(&r, false, IRB_LOG_ERROR);
+    r.log.watch = add_up;
+    r.log.watcher = &sum;
+    irb_log_progress(&r.log, "score", 0.25, 7); /* is quiet */
+    expect_all(&r, "");
+    REQUIRE_NEAR(sum, 1.75, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_people),
-        cmocka_unit_test(test_programs),
-        cmocka_unit_test(test_quiet),
-        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_people),       cmocka_unit_test(test_programs),
+        cmocka_unit_test(test_quiet),        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_run_progress),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,13 +4,7 @@
 # ends as if nothing had happened.
 . "$SOURCE/tests/cli/lib.sh"
 need_gl
-python=$(command -v python3) || {
-    echo "skipped: no python3 to read the database with"
-    exit 77
-}
-db() {
-    "$python" -B "$SOURCE/tests/cli/run_db.py" "$@"
-}
+. "$SOURCE/tests/cli/run_db.sh"
 
 cat >"$work/rounds.yaml" <<'YAML'
 name: rounds
@@ -31,22 +25,6 @@ trials:
   - acrsm: {clusters: 16}
   - rsm: {mode: all}
 YAML
-images() {
-    (cd "$1" && find . -name '*.exr' -o -name '*.png' | sort | xargs md5sum)
-}
-same() { # same WHAT A B: all that is no time agrees
-    checks=$((checks + 1))
-    db dump "$2" >"$work/a.txt"
-    db dump "$3" >"$work/b.txt"
-    images "$2" >"$work/a.md5"
-    images "$3" >"$work/b.md5"
-    [ -s "$work/a.txt" ] && [ -s "$work/a.md5" ] && cmp -s "$work/a.txt" "$work/b.txt" &&
-        cmp -s "$work/a.md5" "$work/b.md5" && return
-    failures=$((failures + 1))
-    echo "FAIL: $1"
-    diff "$work/a.txt" "$work/b.txt" | head -5
-    diff "$work/a.md5" "$work/b.md5" | head -5
-}
 rounds() { # rounds RUN 'lines': "seed repeat frames" of each
     checks=$((checks + 1))
     found=$(db rounds "$1")
@@ -78,7 +56,7 @@ for row in rows:
 # In the first seed, in the second, in the repeats; a history begins again from its settle frames.
 for frames in 5 16 20 30 41; do
     checks=$((checks + 1))
-    db kill "$work/killed-$frames" "$frames" "$IRBENCH" run "$work/rounds.yaml" --out "$work/killed-$frames" || {
+    db SIGKILL "$work/killed-$frames" "$frames" "$IRBENCH" run "$work/rounds.yaml" --out "$work/killed-$frames" || {
         echo "FAIL: a run was not killed at frame $frames"
         failures=$((failures + 1))
     }

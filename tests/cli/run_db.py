@@ -2,7 +2,10 @@
 # What a run's database holds.
 #   run_db.py dump RUN                       every row, but for times and when and how it was run
 #   run_db.py rounds RUN                     "seed repeat frames" of each seed and repeat, whole frames
-#   run_db.py kill RUN FRAMES COMMAND...     starts it and kills it when FRAMES frames are stored
+#   run_db.py watch RUN TABLE COMMAND...     starts it and, until it ends, prints what TABLE (a command
+#                                            in one word) does, over and over, and its exit status
+#   run_db.py SIGNAL RUN FRAMES COMMAND...   starts it and sends it SIGKILL or SIGINT when FRAMES
+#                                            frames are stored
 import os
 import signal
 import sqlite3
@@ -40,20 +43,35 @@ def rounds(run):
         print(*row)
 
 
-def kill(run, count, command):
+def stop(name, run, count, command):
+    sent = False
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
     while process.poll() is None:
         try:
-            if frames(connect(run)) >= count:
-                process.send_signal(signal.SIGKILL)
+            if not sent and frames(connect(run)) >= count:
+                process.send_signal(signal.Signals[name])
+                sent = True
         except sqlite3.Error:  # not there yet
             pass
         time.sleep(0.002)
-    sys.exit(0 if process.returncode == -signal.SIGKILL else f'ended with {process.returncode} unkilled')
+    sys.exit(0 if sent and process.returncode != 0 else f'ended with {process.returncode} by itself')
 
 
-if sys.argv[1] == 'kill':
-    kill(sys.argv[2], int(sys.argv[3]), sys.argv[4:])
+def watch(run, table, command):
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    while process.poll() is None:
+        if not os.path.exists(os.path.join(run, 'results.sqlite')):
+            time.sleep(0.002)
+            continue
+        shown = subprocess.run(table, shell=True, capture_output=True, text=True)
+        print(shown.stdout + shown.stderr + f'-- {shown.returncode}')
+    sys.exit(process.returncode)
+
+
+if sys.argv[1] == 'watch':
+    watch(sys.argv[2], sys.argv[3], sys.argv[4:])
+elif sys.argv[1].startswith('SIG'):
+    stop(sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4:])
 else:
     {'dump': dump, 'rounds': rounds}[sys.argv[1]](sys.argv[2])

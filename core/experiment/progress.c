@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/experiment/progress.h"
+#include "core/experiment/stage.h"
+
+#include <math.h>
+
+/* Before anything has been measured: seconds for an image of 512 x 384 on two cores. */
+static const double usual_s[IRB_PROGRESS_KINDS] = {20, 0.3, 0.3};
+static const double usual_pixels = 512 * 384;
+
+int irb_progress_trial_units(const struct irb_config *config, const struct irb_trial *trial)
+{
+    int frames = config->render.frames;
+    bool history = irb_trial_needs(trial, frames) & IRB_NEEDS_HISTORY;
+    return frames + (history ? config->render.settle : IRB_WARM_UP_FRAMES);
+}
+
+struct irb_progress irb_progress_plan(const struct irb_config *config, unsigned stages)
+{
+    const struct irb_render_settings *render = &config->render;
+    struct irb_progress p = {.stored_s = -INFINITY};
+    double scenes = config->scene_count, units = 0;
+    for (int i = 0; i < IRB_PROGRESS_KINDS; i++)
+        p.kinds[i].guess_s = usual_s[i] * render->width * render->height / usual_pixels;
+    for (int i = 0; i < config->trial_count; i++)
+        units += irb_progress_trial_units(config, &config->trials[i]);
+    if (stages & IRB_STAGE_PREPARE)
+        p.kinds[IRB_PROGRESS_REFERENCE].total = scenes * render->frames;
+    if (stages & IRB_STAGE_RENDER)
+        p.kinds[IRB_PROGRESS_RENDER].total = scenes * units * config->repeats;
+    if (stages & IRB_STAGE_SCORE)
+        p.kinds[IRB_PROGRESS_SCORE].total = scenes * config->trial_count * render->frames;
+    return p;
+}
+
+void irb_progress_begin(struct irb_progress *p, enum irb_progress_kind kind, double now_s)
+{
+    p->kind = kind;
+    p->since_s = now_s;
+    p->part = 0;
+}
+
+void irb_progress_skip(struct irb_progress *p, enum irb_progress_kind kind, double units)
+{
+    if (kind == IRB_PROGRESS_REFERENCE)
+        p->kinds[kind].total = fmax(p->kinds[kind].total - units, 0);
+    else
+        p->kinds[kind].done += units;
+}
+
+void irb_progress_step(struct irb_progress *p, double units, double now_s)
+{
+    p->kinds[p->kind].done += units;
+    p->kinds[p->kind].made += units;
+    p->kinds[p->kind].seconds += now_s - p->since_s;
+    p->since_s = now_s;
+    p->part = 0;
+}
+
+void irb_progress_part(struct irb_progress *p, double share)
+{
+    p->part = fmin(fmax(share, 0), 1);
+}
+
+static double unit_s(const struct irb_progress *p, int kind)
+{
+    double made = p->kinds[kind].made;
+    return made > 0 ? p->kinds[kind].seconds / made : p->kinds[kind].guess_s;
+}
+
+static double units_left(const struct irb_progress *p, int kind)
+{
+    double part = kind == (int)p->kind ? p->part : 0;
+    return fmax(p->kinds[kind].total - p->kinds[kind].done - part, 0);
+}
+
+double irb_progress_fraction(struct irb_progress *p)
+{
+    double all = 0, left = 0;
+    for (int i = 0; i < IRB_PROGRESS_KINDS; i++) {
+        all += p->kinds[i].total * unit_s(p, i);
+        left += units_left(p, i) * unit_s(p, i);
+    }
+    if (all > 0)
+        p->shown = fmax(p->shown, fmin(1 - left / all, 1));
+    return p->shown;
+}
+
+double irb_progress_left_s(const struct irb_progress *p)
+{
+    double left = 0;
+    for (int i = 0; i < IRB_PROGRESS_KINDS; i++)
+        left += units_left(p, i) * unit_s(p, i);
+    return left;
+}
