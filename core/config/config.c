@@ -39,6 +39,10 @@ const struct irb_option irb_output_options[] = {
                     "keep what methods show of their insides (cluster maps, shadow maps, ...) with "
                     "each kept frame that is rendered from now on",
                     "ours"),
+    IRB_OPTION_BOOL(struct irb_output_settings, film, 1,
+                    "keep small pictures (JPEG) of every frame that is scored from now on, of each "
+                    "trial's first seed: result, reference, HDR-FLIP, temporal residual",
+                    "ours"),
     IRB_OPTION_END,
 };
 

@@ -39,6 +39,7 @@ extern const struct irb_option irb_trial_options[];
  * makes textures for it, and is not in the config's key. */
 struct irb_output_settings {
     bool debug_layers; /* of kept frames, those of methods that have any */
+    bool film;         /* small pictures of every frame */
 };
 extern const struct irb_option irb_output_options[];
 

@@ -13,8 +13,10 @@
  *     RUN/SCENE/TRIAL/image-0000.exr|png  a kept frame: result, reference, maps
  *     RUN/SCENE/TRIAL/debug-NAME-0000.png a debug layer of a kept frame
  *     RUN/SCENE/TRIAL/debug-NAME-0000.exr the same where it has not the image's size
+ *     RUN/SCENE/film/STEM-0000.jpg        small pictures of every frame, see film.h
+ *     RUN/SCENE/TRIAL/film/STEM-0000.jpg  the same of a trial
  *
- * With several seeds the last four are in RUN/SCENE/TRIAL/seed-N/.
+ * With several seeds what lies in TRIAL/ is in RUN/SCENE/TRIAL/seed-N/.
  */
 #ifndef IRB_EXPERIMENT_PATHS_H
 #define IRB_EXPERIMENT_PATHS_H

@@ -2,6 +2,7 @@
 #include "core/experiment/score_frame.h"
 #include "core/experiment/frame_file.h"
 #include "core/experiment/paths.h"
+#include "core/experiment/score_temporal.h"
 #include "core/frame/composite.h"
 #include "core/score/metrics.h"
 #include "core/score/ssim.h"
@@ -135,85 +136,6 @@ static bool score_view(const struct ranked *image, const struct irb_target_view 
     return true;
 }
 
-/* The previous frame's pair, brought to this frame's pixels where camera or objects moved. */
-struct warped_pair {
-    struct irb_pair pair;
-    struct irb_image test, reference; /* owned where warped */
-    uint8_t *mask;                    /* owned where warped */
-};
-
-static bool warp_pair(struct warped_pair *out, const struct irb_pair *previous,
-                      const struct irb_reprojection *motion, struct irb_error *err)
-{
-    *out = (struct warped_pair){.pair = *previous};
-    if (!motion)
-        return true;
-    size_t pixels = irb_image_pixels(previous->test);
-    out->mask = malloc(pixels);
-    if (!out->mask)
-        return irb_fail(err, IRB_E_MEMORY, "no memory for a mask of %zu pixels", pixels);
-    for (size_t i = 0; i < pixels; i++)
-        out->mask[i] = motion->source[i] >= 0 && previous->mask[motion->source[i]];
-    if (!irb_reprojection_apply(motion, previous->test, &out->test, err) ||
-        !irb_reprojection_apply(motion, previous->reference, &out->reference, err))
-        return false;
-    out->pair = (struct irb_pair){&out->test, &out->reference, out->mask};
-    return true;
-}
-
-static void warped_destroy(struct warped_pair *warped)
-{
-    irb_image_destroy(&warped->test);
-    irb_image_destroy(&warped->reference);
-    free(warped->mask);
-}
-
-/* What the test image would be if it followed the reference exactly: max(0, I_(t-1) + R_t -
- * R_(t-1)), where both frames have a finite pixel; elsewhere the test image itself, and `mask` is 0
- * there. */
-static bool follow_reference(const struct irb_pair *previous, const struct irb_pair *current,
-                             struct irb_image *expected, uint8_t *mask, struct irb_error *err)
-{
-    const struct irb_image *test = current->test;
-    if (!irb_image_create(expected, test->width, test->height, 3, err))
-        return false;
-    for (size_t i = 0; i < irb_image_pixels(test); i++) {
-        mask[i] = previous->mask[i] && current->mask[i];
-        for (size_t c = 3 * i; c < 3 * i + 3; c++) {
-            /* the error first: where there is none, the result is the reference to the bit */
-            double error = (double)previous->test->data[c] - previous->reference->data[c];
-            double value = current->reference->data[c] + error;
-            expected->data[c] = value > 0 ? (float)value : 0;
-            mask[i] = mask[i] && isfinite(value) && isfinite(test->data[c]);
-        }
-        for (size_t c = 3 * i; !mask[i] && c < 3 * i + 3; c++)
-            expected->data[c] = test->data[c];
-    }
-    return true;
-}
-
-static bool score_temporal_flip(const struct ranked *image, const struct irb_pair *previous,
-                                const struct irb_target_view *view, double exposure, double *v,
-                                struct irb_error *err)
-{
-    struct irb_image expected = {0};
-    struct irb_target_view expected_view = {0};
-    struct irb_flip_scores flip;
-    uint8_t *mask = malloc(irb_image_pixels(image->pair.test));
-    bool ok = mask != NULL;
-    if (!ok)
-        irb_fail(err, IRB_E_MEMORY, "no memory for a mask");
-    ok = ok && follow_reference(previous, &image->pair, &expected, mask, err) &&
-         irb_target_view_create(&expected_view, &expected, exposure, 1, err) &&
-         irb_flip_views(view->flip, expected_view.flip, mask, 1, NULL, &flip, err);
-    if (ok)
-        v[RANKED(image, temporal_flip)] = flip.mean;
-    irb_target_view_destroy(&expected_view);
-    irb_image_destroy(&expected);
-    free(mask);
-    return ok;
-}
-
 static void score_regions(const struct irb_score_context *context, const struct ranked *image,
                           const struct irb_image *flip_map, const struct irb_pair *previous,
                           struct irb_frame_scores *scores, const struct irb_scene_entry *entry)
@@ -243,35 +165,51 @@ static struct irb_pair previous_pair(bool full, const struct irb_score_context *
     return (struct irb_pair){&previous->indirect, &before->indirect, before->mask};
 }
 
-/* All scores of one ranked image. */
+/* What there is between this frame and the one before it. */
+static bool score_change(const struct ranked *image, const struct irb_pair *previous,
+                         const struct irb_target_view *view, double exposure,
+                         struct irb_score_maps *maps, double *v, struct irb_error *err)
+{
+    struct irb_temporal_flip flip;
+    struct irb_flicker_scores flicker =
+        irb_score_flicker(previous, &image->pair, image->mean_reference);
+    v[RANKED(image, flicker)] = flicker.flicker;
+    v[RANKED(image, pop_share)] = flicker.pop_share;
+    bool ok = irb_temporal_flip(&flip, previous, &image->pair, view, exposure, err) &&
+              (!maps || irb_residual_map(previous, &image->pair, image->mean_reference,
+                                         &maps->residual, err));
+    v[RANKED(image, temporal_flip)] = flip.mean;
+    irb_temporal_flip_destroy(&flip);
+    return ok;
+}
+
+/* All scores of one ranked image; maps may be NULL. */
 static bool score_ranked(struct irb_frame_scores *scores, const struct irb_score_context *context,
                          const struct irb_scored_trial *trial, const struct ranked *image,
-                         const struct irb_scored_frame *previous, struct irb_error *err)
+                         const struct irb_scored_frame *previous, struct irb_score_maps *maps,
+                         struct irb_error *err)
 {
     double *v = scores->values, exposure = context->constants->exposure;
     struct irb_target_view view = {0};
     struct irb_image flip_map = {0};
-    struct warped_pair before = {0};
-    bool regions = trial->entry->region_count > 0;
+    struct irb_warped_pair before = {0};
+    bool wants_map = maps || trial->entry->region_count > 0;
     bool ok = irb_target_view_create(&view, image->pair.test, exposure, 1, err) &&
-              score_flip(image, regions ? &flip_map : NULL, v, err) &&
+              score_flip(image, wants_map ? &flip_map : NULL, v, err) &&
               score_view(image, &view, v, err);
     if (ok && previous) {
         struct irb_pair pair = previous_pair(image->full, context, previous);
-        ok = warp_pair(&before, &pair, context->motion, err) &&
-             score_temporal_flip(image, &before.pair, &view, exposure, v, err);
-    }
-    if (ok && previous) {
-        struct irb_flicker_scores flicker =
-            irb_score_flicker(&before.pair, &image->pair, image->mean_reference);
-        v[RANKED(image, flicker)] = flicker.flicker;
-        v[RANKED(image, pop_share)] = flicker.pop_share;
+        ok = irb_warp_pair(&before, &pair, context->motion, err) &&
+             score_change(image, &before.pair, &view, exposure, maps, v, err);
     }
     if (ok)
         score_regions(context, image, &flip_map, previous ? &before.pair : NULL, scores,
                       trial->entry);
-    warped_destroy(&before);
-    irb_image_destroy(&flip_map);
+    irb_warped_pair_destroy(&before);
+    if (maps)
+        maps->flip = flip_map; /* moved */
+    else
+        irb_image_destroy(&flip_map);
     irb_target_view_destroy(&view);
     return ok;
 }
@@ -291,13 +229,16 @@ static void score_reference(const struct irb_score_context *context, bool tempor
 
 bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_context *context,
                      const struct irb_scored_trial *trial, const struct irb_scored_frame *current,
-                     const struct irb_scored_frame *previous, struct irb_error *err)
+                     const struct irb_scored_frame *previous, struct irb_score_maps *maps,
+                     struct irb_error *err)
 {
     const struct irb_target *target = context->target;
     const struct irb_target_constants *c = context->constants;
     const struct irb_reference_settings *reference = &context->settings->reference;
     double *v = scores->values;
     irb_frame_scores_clear(scores);
+    if (maps)
+        *maps = (struct irb_score_maps){0};
     struct ranked indirect = ranked_image(false, context, current);
     struct ranked full = ranked_image(true, context, current);
     struct irb_pair solution = {&current->full, &target->solution, target->mask};
@@ -316,7 +257,13 @@ bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_con
     if (c->lag)
         irb_lag_errors(c->lag, current->frame, &current->indirect, target->mask,
                        scores->lag_errors);
-    scores->present = score_ranked(scores, context, trial, &indirect, previous, err) &&
-                      score_ranked(scores, context, trial, &full, previous, err);
+    scores->present = score_ranked(scores, context, trial, &indirect, previous, maps, err) &&
+                      score_ranked(scores, context, trial, &full, previous, NULL, err);
     return scores->present;
+}
+
+void irb_score_maps_destroy(struct irb_score_maps *maps)
+{
+    irb_image_destroy(&maps->flip);
+    irb_image_destroy(&maps->residual);
 }

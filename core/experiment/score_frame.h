@@ -48,9 +48,19 @@ bool irb_scored_frame_load(struct irb_scored_frame *out, const struct irb_run *r
                            const struct irb_target *target, struct irb_error *err);
 void irb_scored_frame_destroy(struct irb_scored_frame *frame);
 
+/* Maps of the indirect image that scoring makes on its way; 1 channel, owned. */
+struct irb_score_maps {
+    struct irb_image flip;     /* HDR-FLIP; empty where the sequence is black */
+    struct irb_image residual; /* |e_t - e_(t-1)| / mean reference; empty in the first frame */
+};
+void irb_score_maps_destroy(struct irb_score_maps *maps);
+
+/* previous is NULL in the first frame. maps (NULL: not wanted) are to be destroyed after a failure
+ * too. */
 bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_context *context,
                      const struct irb_scored_trial *trial, const struct irb_scored_frame *current,
-                     const struct irb_scored_frame *previous, struct irb_error *err);
+                     const struct irb_scored_frame *previous, struct irb_score_maps *maps,
+                     struct irb_error *err);
 
 static inline bool irb_frame_scores_present(const struct irb_frame_scores *scores)
 {

@@ -262,6 +262,10 @@ bool irb_target_constants_store(const struct irb_target_constants *constants, st
         {"psnr_peak_indirect", constants->peak_indirect},
         {"psnr_peak_full", constants->peak_full},
         {"preview_exposure", constants->exposure},
+        {"film_v0_indirect", constants->film_indirect.v0},
+        {"film_vmax_indirect", constants->film_indirect.vmax},
+        {"film_v0_direct", constants->film_full.v0},
+        {"film_vmax_direct", constants->film_full.vmax},
     };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         char *name = irb_asprintf("scene/%s/%s", sequence->entry->name, values[i].name);

@@ -6,6 +6,7 @@
 #include "core/base/clock.h"
 #include "core/base/fs.h"
 #include "core/base/parallel.h"
+#include "core/experiment/film.h"
 #include "core/experiment/keep.h"
 #include "core/experiment/score_frame.h"
 #include "core/experiment/score_stage.h"
@@ -36,6 +37,23 @@ struct scoring {
     int trial_count;
 };
 
+static bool score_and_film(const struct scoring *s, struct trial_scores *trial,
+                           const struct irb_score_context *context,
+                           const struct irb_scored_frame *current)
+{
+    const struct irb_trial *of = trial->trial.trial;
+    const struct irb_frame_place place = {s->run->dir, trial->trial.scene, of->folder, s->frame};
+    bool film = irb_film_has_trial(s->run->config, of);
+    struct irb_score_maps maps = {0};
+    bool ok =
+        irb_score_frame(&trial->frames[s->frame], context, &trial->trial, current,
+                        s->frame > 0 ? &trial->previous : NULL, film ? &maps : NULL, &trial->err) &&
+        (!film ||
+         irb_film_trial(&place, &current->indirect, &maps, context->constants, &trial->err));
+    irb_score_maps_destroy(&maps);
+    return ok;
+}
+
 /* Scores one trial's current frame; runs on any thread, touches its own trial only. */
 static bool score_trial(void *user, int index, int thread)
 {
@@ -61,8 +79,7 @@ static bool score_trial(void *user, int index, int thread)
         .motion = s->motion.source ? &s->motion : NULL,
         .settings = s->run->config,
     };
-    bool ok = irb_score_frame(&trial->frames[frame], &context, &trial->trial, &current,
-                              frame > 0 ? &trial->previous : NULL, &trial->err);
+    bool ok = score_and_film(s, trial, &context, &current);
     trial->fresh[frame] = ok;
     irb_scored_frame_destroy(&trial->previous);
     trial->previous = current;
@@ -127,6 +144,10 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
     if (!load_targets(s, err) || !irb_target_prepare(&s->target, s->sequence->entry, &s->constants,
                                                      s->run->options->threads, err))
         return false;
+    if (irb_film_wanted(s->run->config) &&
+        !irb_film_target(s->run->dir, s->sequence->entry->name, s->frame, &s->target, &s->constants,
+                         err))
+        return false;
     if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
         for (int t = 0; t < s->trial_count; t++)
             if (s->trials[t].err.code != IRB_E_OK && err)
@@ -141,9 +162,26 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
     return store_fresh(s, err);
 }
 
+/* The folders of the films. */
+static bool open_films(const struct scoring *s, struct irb_error *err)
+{
+    const char *scene = s->sequence->entry->name;
+    if (!irb_film_wanted(s->run->config))
+        return true;
+    bool ok = irb_film_open(s->run->dir, scene, NULL, err);
+    for (int t = 0; ok && t < s->trial_count; t++) {
+        const struct irb_trial *trial = s->trials[t].trial.trial;
+        if (irb_film_has_trial(s->run->config, trial))
+            ok = irb_film_open(s->run->dir, scene, trial->folder, err);
+    }
+    return ok;
+}
+
 static bool score_frames(struct scoring *s, struct irb_error *err)
 {
     double start = irb_clock_s();
+    if (!open_films(s, err))
+        return false;
     for (s->frame = 0; s->frame < s->sequence->frame_count; s->frame++) {
         if (irb_run_stopped(s->run, err))
             return false;

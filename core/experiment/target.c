@@ -94,6 +94,7 @@ void irb_target_destroy(struct irb_target *target)
     irb_gbuffer_image_destroy(&target->gbuffer);
     free(target->mask);
     irb_image_destroy(&target->direct);
+    irb_image_destroy(&target->direct_reference);
     irb_image_destroy(&target->indirect);
     irb_image_destroy(&target->full);
     irb_image_destroy(&target->solution);
@@ -199,8 +200,11 @@ bool irb_target_load(struct irb_target *target, const struct irb_run *run,
               irb_composite(&target->gbuffer, &reference.direct, &reference.unoccluded, NULL,
                             &target->claim, &unused, err) &&
               add_higher_bounces(target, &reference, err);
-    if (ok)
+    if (ok) {
         noise_of(target, &reference.variance, constants);
+        target->direct_reference = reference.direct; /* moved */
+        reference.direct = (struct irb_image){0};
+    }
     irb_image_destroy(&unused);
     irb_reference_image_destroy(&reference);
     free(direct);
@@ -225,9 +229,10 @@ static void add_means(struct irb_target_constants *c, const struct irb_target *t
     c->mean_claim += irb_masked_mean(&target->claim, target->mask) / frames;
 }
 
-/* FLIP's exposures and PSNR's peak over all frames, through arrays of pointers. */
-static bool scales_of(struct irb_image *images, uint8_t **masks, int count,
-                      struct irb_flip_exposures *out, double *peak)
+/* FLIP's exposures, PSNR's peak and the film's scale over all frames, through arrays of pointers.
+ */
+static bool scales_of(struct irb_image *images, uint8_t **masks, int count, double mean,
+                      struct irb_flip_exposures *out, double *peak, struct irb_film_scale *film)
 {
     const struct irb_image **references = malloc((size_t)count * sizeof *references);
     if (!references)
@@ -237,6 +242,8 @@ static bool scales_of(struct irb_image *images, uint8_t **masks, int count,
     const uint8_t *const *counted = (const uint8_t *const *)masks;
     bool lit = irb_flip_exposures_of(references, counted, count, out);
     *peak = irb_value_percentile(references, counted, count, IRB_PSNR_PEAK_FRACTION);
+    *film = irb_film_scale_of(mean,
+                              irb_value_percentile(references, counted, count, IRB_FILM_FRACTION));
     free(references);
     return lit;
 }
@@ -306,9 +313,11 @@ bool irb_target_constants_of(struct irb_target_constants *constants, const struc
         constants->eps_solution = irb_relmse_eps(constants->mean_solution);
         constants->eps_claim = irb_relmse_eps(constants->mean_claim);
         constants->indirect_lit = scales_of(images.indirect, images.masks, images.count,
-                                            &constants->flip_indirect, &constants->peak_indirect);
-        constants->full_lit = scales_of(images.full, images.masks, images.count,
-                                        &constants->flip_full, &constants->peak_full);
+                                            constants->mean_indirect, &constants->flip_indirect,
+                                            &constants->peak_indirect, &constants->film_indirect);
+        constants->full_lit =
+            scales_of(images.full, images.masks, images.count, constants->mean_full,
+                      &constants->flip_full, &constants->peak_full, &constants->film_full);
         ok = set_lag(constants, &images, err);
     }
     for (int i = 0; i < images.count; i++) {

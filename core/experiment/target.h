@@ -8,6 +8,7 @@
 
 #include "core/experiment/stage.h"
 #include "core/score/display.h"
+#include "core/score/film_code.h"
 #include "core/score/flip.h"
 #include "core/score/lag.h"
 
@@ -25,8 +26,9 @@ void irb_target_view_destroy(struct irb_target_view *view);
 /* One frame's reference images: radiance towards the eye, W/(m2 sr), 3 channels. */
 struct irb_target {
     struct irb_gbuffer_image gbuffer;
-    uint8_t *mask;             /* pixels that count: geometry, same surface in run and reference */
-    struct irb_image direct;   /* the core's own direct light (PCF shadows), shared by the trials */
+    uint8_t *mask;           /* pixels that count: geometry, same surface in run and reference */
+    struct irb_image direct; /* the core's own direct light (PCF shadows), shared by the trials */
+    struct irb_image direct_reference; /* exact direct light */
     struct irb_image indirect; /* bounce 1 with exact visibility: the one target for rankings */
     struct irb_image full;     /* exact direct + bounce 1 */
     struct irb_image solution; /* exact direct + bounces 1..n */
@@ -47,10 +49,11 @@ struct irb_target_constants {
     struct irb_flip_exposures flip_indirect, flip_full;
     bool indirect_lit, full_lit;     /* false: a black reference, FLIP is not defined */
     double peak_indirect, peak_full; /* of PSNR: 99.9th percentile of the sequence's values */
-    double exposure;                 /* of previews, SSIM and LDR-FLIP */
-    bool view_rests;                 /* neither camera nor objects move */
-    struct irb_lag_reference *lag;   /* the indirect images, NULL where no lag is scored; owned */
-    double noise;                    /* reached, largest of the frames: see irb_reference_image */
+    struct irb_film_scale film_indirect, film_full; /* of the run's films */
+    double exposure;                                /* of previews, SSIM and LDR-FLIP */
+    bool view_rests;                                /* neither camera nor objects move */
+    struct irb_lag_reference *lag; /* the indirect images, NULL where no lag is scored; owned */
+    double noise;                  /* reached, largest of the frames: see irb_reference_image */
 };
 
 /* constants may be NULL (noise_relmse is then 0). The direct light and the mask are read from the

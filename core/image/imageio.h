@@ -16,6 +16,11 @@ extern "C" {
  * 1 or 3 channels; NaN becomes 0. Equal images give equal files (a fixed date is stored). */
 bool irb_png_write(const char *path, const struct irb_image *image, struct irb_error *err);
 
+/* The same as a baseline JPEG of `quality` 1 to 100, without subsampled colour. Equal images give
+ * equal files. Written beside `path` and renamed into place. */
+bool irb_jpeg_write(const char *path, const struct irb_image *image, int quality,
+                    struct irb_error *err);
+
 /* Encodes 8-bit RGBA (not premultiplied, row 0 at the top, as stored) as a PNG in memory; without
  * the alpha channel where it is 255 everywhere. `name` appears in messages. *data is malloc'ed.
  * Equal images give equal bytes. */

@@ -18,6 +18,13 @@ bool irb_png_write(const char *path, const struct irb_image *image, struct irb_e
     return absent(path, err);
 }
 
+bool irb_jpeg_write(const char *path, const struct irb_image *image, int quality,
+                    struct irb_error *err)
+{
+    (void)image, (void)quality;
+    return absent(path, err);
+}
+
 bool irb_png_encode(const char *name, const unsigned char *rgba, int width, int height,
                     unsigned char **data, size_t *size, struct irb_error *err)
 {

@@ -153,6 +153,13 @@ static double magnitude(const float *rgb)
     return sqrt(sum / CHANNELS);
 }
 
+static bool counts_in_both(const struct irb_pair *previous, const struct irb_pair *current,
+                           size_t pixel)
+{
+    return !masked(previous->mask, pixel) && !masked(current->mask, pixel) &&
+           pair_finite(previous, pixel) && pair_finite(current, pixel);
+}
+
 struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
                                             const struct irb_pair *current, double mean_reference)
 {
@@ -161,9 +168,7 @@ struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
     long count = 0, pops = 0;
     size_t pixels = irb_image_pixels(current->test);
     for (size_t i = 0; i < pixels; i++) {
-        if (masked(previous->mask, i) || masked(current->mask, i))
-            continue;
-        if (!pair_finite(previous, i) || !pair_finite(current, i))
+        if (!counts_in_both(previous, current, i))
             continue;
         double change = residual_change(previous, current, i);
         double level = magnitude(current->reference->data + CHANNELS * i);
@@ -177,6 +182,18 @@ struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
         .flicker = residual == 0 ? 0 : residual / mean_reference,
         .pop_share = (double)pops / (double)count,
     };
+}
+
+bool irb_residual_map(const struct irb_pair *previous, const struct irb_pair *current,
+                      double mean_reference, struct irb_image *map, struct irb_error *err)
+{
+    if (!irb_image_create(map, current->test->width, current->test->height, 1, err))
+        return false;
+    for (size_t i = 0; mean_reference > 0 && i < irb_image_pixels(map); i++)
+        if (counts_in_both(previous, current, i))
+            map->data[i] =
+                (float)fmin(sqrt(residual_change(previous, current, i)) / mean_reference, FLT_MAX);
+    return true;
 }
 
 static int ascending(const void *a, const void *b)

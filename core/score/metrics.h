@@ -74,6 +74,11 @@ struct irb_flicker_scores {
 struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
                                             const struct irb_pair *current, double mean_reference);
 
+/* |e_t - e_(t-1)| / mean R of each pixel; 1 channel, created. 0 where a mask is 0, a pixel is not
+ * finite, or the mean reference is 0; at most FLT_MAX. */
+bool irb_residual_map(const struct irb_pair *previous, const struct irb_pair *current,
+                      double mean_reference, struct irb_image *map, struct irb_error *err);
+
 /* Mean, median (of an even count the mean of the middle two), 95th percentile (nearest rank) and
  * maximum; values need not be sorted, NaNs among them are left out. NaN for none. */
 struct irb_summary {

@@ -75,6 +75,52 @@ peak=$(sed -n 's/.*PSNR peak \([^ ]*\) and.*/\1/p' "$work/text")
     failures=$((failures + 1))
 }
 
+# The film: every frame's pictures, once they are scored.
+trial=cornell/rsm:mode=all:clamp=100
+pictures() { # pictures RUN STEM...: how many there are of each
+    run=$1
+    shift
+    for stem; do
+        printf '%s ' "$(find "$run" -path "*/$stem-*.jpg" -type f -size +0 | wc -l)"
+    done
+}
+film() { # film WHAT RUN EXPECTED
+    checks=$((checks + 1))
+    found=$(pictures "$2" cornell/film/reference cornell/film/direct cornell/film/direct_reference \
+        "$trial/film/indirect" "$trial/film/flip" "$trial/film/residual")
+    [ "$found" = "$3 " ] && return
+    echo "FAIL: $1: found '$found' pictures, expected '$3'"
+    failures=$((failures + 1))
+}
+images() { # whether this build has them
+    "$IRBENCH" doctor | grep -q '^images .*: built in'
+}
+if images; then
+    film "a film" "$work/plain" "8 8 8 8 8 7"
+    # a frame whose picture can't be written is not scored, and is made up for
+    for stage in prepare render; do
+        check "$stage" "$IRBENCH" run "$work/scores.yaml" --out "$work/torn" --stage $stage
+    done
+    mkdir -p "$work/torn/$trial/film/flip-0003.jpg/in-the-way"
+    expect 5 "flip-0003.jpg" "$IRBENCH" run "$work/scores.yaml" --out "$work/torn"
+    film "what was scored has its pictures" "$work/torn" "4 4 4 4 3 2"
+    rm -r "$work/torn/$trial/film/flip-0003.jpg"
+    check "a torn film goes on" "$IRBENCH" run "$work/scores.yaml" --out "$work/torn"
+    film "a torn film is made up for" "$work/torn" "8 8 8 8 8 7"
+    checks=$((checks + 1))
+    for run in plain torn; do
+        (cd "$work/$run" && find . -name '*.jpg' | sort | xargs md5sum) >"$work/$run.md5"
+    done
+    cmp -s "$work/plain.md5" "$work/torn.md5" || {
+        echo "FAIL: a film in pieces has other pictures than one in a row"
+        failures=$((failures + 1))
+    }
+fi
+check "without a film" "$IRBENCH" run "$work/scores.yaml" --out "$work/dark" --set film=false
+film "none was wanted" "$work/dark" "0 0 0 0 0 0"
+json "$work/dark" >"$work/now.json"
+holds "pictures change no number" "all(row[k] == before[k] for k in row if not k.endswith('_ms') and 'frame_ms' not in k)"
+
 check "prepared" "$IRBENCH" run "$work/scores.yaml" --out "$work/again" --stage prepare
 check "rendered" "$IRBENCH" run "$work/scores.yaml" --out "$work/again" --stage render
 

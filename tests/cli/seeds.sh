@@ -39,6 +39,11 @@ for seed in 3 8; do
         }
     done
 done
+checks=$((checks + 1))
+[ -z "$(find "$work/run" -path '*/seed-8/film')" ] || {
+    echo "FAIL: a film of the second seed"
+    failures=$((failures + 1))
+}
 rows() { # rows ARGUMENTS...: of the csv table
     "$IRBENCH" table "$work/run" --format csv "$@" | tail -n +2 | wc -l
 }

@@ -429,6 +429,7 @@ static void test_key(void **state)
     assert_string_equal(key_with(full_text, "name=other").hex, key.hex);
     assert_string_equal(key_with(full_text, "debug_layers=true").hex, key.hex);
     assert_string_equal(key_with(full_text, "repeats=2").hex, key.hex); /* times alone */
+    assert_string_equal(key_with(full_text, "film=false").hex, key.hex);
     assert_string_equal(key_with(full_text, "frames=9").hex, key.hex);
     assert_string_equal(
         key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,

@@ -144,7 +144,7 @@ static void test_top(void **state)
                "seeds, repeats, resolution, reference, scenes, scene, camera, light, animation, "
                "objects, regions, trials, width, height, frames, settle, rsm_resolution, "
                "gbuffer_layout, rsm_layout, exposure, "
-               "debug_layers");
+               "debug_layers, film");
     expect_top("frames: 3\nframes: 4",
                "@:3:1: config: 'frames' stands here twice, first in line 2");
     expect_top("frames: 0", "@:2:9: frames: expected a whole number in [1, 100000]; found '0'");

@@ -128,6 +128,55 @@ static void equal_images_give_equal_files(void **state)
 }
 
 /* Reads back linear: sRGB 128/255 is 0.21586 (IEC 61966-2-1). */
+/* Smooth pictures come back within a few codes, colour edges too; the quality sets the size. */
+static void jpeg_round_trip(void **state)
+{
+    char path[128], again[128];
+    for (int channels = 1; channels <= 3; channels += 2) {
+        struct irb_image image;
+        size_t sizes[2];
+        char *bytes, *same;
+        REQUIRE_OK(irb_image_create(&image, 67, 41, channels, &err));
+        for (int y = 0; y < 41; y++)
+            for (int x = 0; x < 67; x++)
+                for (int c = 0; c < channels; c++)
+                    irb_image_at(&image, x, y)[c] =
+                        c == 1 ? (x < 32 ? 0.2f : 0.8f) : (float)(x + y) / 106;
+        image.data[0] = NAN;
+        REQUIRE_OK(irb_jpeg_write(in_folder(state, "a.jpg", path), &image, 90, &err));
+        REQUIRE_OK(irb_fs_read(path, 1 << 20, &bytes, &sizes[0], &err));
+        REQUIRE_OK(irb_jpeg_write(in_folder(state, "b.jpg", again), &image, 90, &err));
+        REQUIRE_OK(irb_fs_read(again, 1 << 20, &same, &sizes[1], &err));
+        assert_int_equal(sizes[0], sizes[1]);
+        assert_memory_equal(bytes, same, sizes[0]);
+        int width, height;
+        unsigned char *rgba;
+        REQUIRE_OK(irb_image_decode("picture", bytes, sizes[0], &width, &height, &rgba, &err));
+        assert_int_equal(width, 67);
+        assert_int_equal(height, 41);
+        for (int i = 1; i < 67 * 41; i++)
+            for (int c = 0; c < 3; c++)
+                REQUIRE_NEAR(rgba[4 * i + c], 255 * image.data[channels * i + c % channels], 14);
+        free(rgba);
+        free(same);
+        free(bytes);
+        REQUIRE_OK(irb_jpeg_write(again, &image, 20, &err));
+        REQUIRE_OK(irb_fs_read(again, 1 << 20, &same, &sizes[1], &err));
+        REQUIRE_CMP(sizes[1], <, sizes[0]);
+        free(same);
+        irb_image_destroy(&image);
+    }
+    struct irb_image two;
+    REQUIRE_OK(irb_image_create(&two, 4, 4, 2, &err));
+    assert_false(irb_jpeg_write(path, &two, 90, &err));
+    assert_non_null(strstr(err.message, "1 or 3 channels"));
+    irb_image_destroy(&two);
+    REQUIRE_OK(irb_image_create(&two, 4, 4, 1, &err));
+    assert_false(irb_jpeg_write("/nowhere/a.jpg", &two, 90, &err));
+    assert_int_equal(err.code, IRB_E_IO);
+    irb_image_destroy(&two);
+}
+
 static void srgb_files_are_linearised(void **state)
 {
     char path[128];
@@ -232,6 +281,7 @@ int main(void)
         cmocka_unit_test(png_round_trip),
         cmocka_unit_test(values_are_clamped),
         cmocka_unit_test(equal_images_give_equal_files),
+        cmocka_unit_test(jpeg_round_trip),
         cmocka_unit_test(srgb_files_are_linearised),
         cmocka_unit_test(exr_default_layer_is_read),
         cmocka_unit_test(bad_input_is_named),
