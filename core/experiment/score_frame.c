@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void irb_scored_frame_destroy(struct irb_scored_frame *frame)
 {
@@ -136,23 +137,48 @@ static bool score_view(const struct ranked *image, const struct irb_target_view 
     return true;
 }
 
-static void score_regions(const struct irb_score_context *context, const struct ranked *image,
-                          const struct irb_image *flip_map, const struct irb_pair *previous,
-                          struct irb_frame_scores *scores, const struct irb_scene_entry *entry)
+/* What there is between this frame and the one before it. */
+struct change {
+    struct irb_warped_pair before;
+    struct irb_temporal_flip flip;
+};
+
+static bool score_region(const struct ranked *image, const uint8_t *mask,
+                         const struct irb_image *flip_map, const struct change *change,
+                         double values[IRB_REGION_METRIC_COUNT / 2], struct irb_error *err)
 {
-    for (int r = 0; r < entry->region_count; r++) {
-        struct irb_pair pair = image->pair;
-        pair.mask = context->target->regions[r];
-        struct irb_error_scores errors = irb_score_errors(&pair, image->eps);
-        double values[] = {
-            errors.rmse, errors.relmse, errors.bias,
-            flip_map->data ? irb_masked_mean(flip_map, pair.mask) : NAN,
-            previous ? irb_score_flicker(previous, &pair, image->mean_reference).flicker : NAN};
-        enum { COUNT = sizeof values / sizeof *values };
-        _Static_assert(2 * COUNT == IRB_REGION_METRIC_COUNT, "the order of IRB_REGION_METRICS");
-        for (int i = 0; i < COUNT; i++)
-            scores->regions[r][(image->full ? COUNT : 0) + i] = values[i];
+    struct irb_pair pair = image->pair;
+    pair.mask = mask;
+    struct irb_error_scores errors = irb_score_errors(&pair, image->eps);
+    struct irb_flicker_scores flicker = {NAN, NAN};
+    double temporal_flip = NAN;
+    if (change) {
+        flicker = irb_score_flicker(&change->before.pair, &pair, image->mean_reference);
+        if (!irb_temporal_flip_mean(&change->flip, mask, &temporal_flip, err))
+            return false;
     }
+    const double all[] = {errors.rmse,     errors.relmse,
+                          errors.bias,     flip_map->data ? irb_masked_mean(flip_map, mask) : NAN,
+                          flicker.flicker, flicker.pop_share,
+                          temporal_flip};
+    _Static_assert(2 * sizeof all == IRB_REGION_METRIC_COUNT * sizeof *all,
+                   "the order of IRB_REGION_METRICS");
+    memcpy(values, all, sizeof all);
+    return true;
+}
+
+/* change is NULL in the first frame. */
+static bool score_regions(const struct irb_score_context *context, const struct ranked *image,
+                          const struct irb_image *flip_map, const struct change *change,
+                          struct irb_frame_scores *scores, const struct irb_scene_entry *entry,
+                          struct irb_error *err)
+{
+    for (int r = 0; r < entry->region_count; r++)
+        if (!score_region(image, context->target->regions[r], flip_map, change,
+                          scores->regions[r] + (image->full ? IRB_REGION_METRIC_COUNT / 2 : 0),
+                          err))
+            return false;
+    return true;
 }
 
 /* The previous frame's pair of the same image. */
@@ -165,22 +191,24 @@ static struct irb_pair previous_pair(bool full, const struct irb_score_context *
     return (struct irb_pair){&previous->indirect, &before->indirect, before->mask};
 }
 
-/* What there is between this frame and the one before it. */
-static bool score_change(const struct ranked *image, const struct irb_pair *previous,
-                         const struct irb_target_view *view, double exposure,
-                         struct irb_score_maps *maps, double *v, struct irb_error *err)
+/* *change is to be destroyed after a failure too. */
+static bool score_change(struct change *change, const struct irb_score_context *context,
+                         const struct ranked *image, const struct irb_scored_frame *previous,
+                         const struct irb_target_view *view, struct irb_score_maps *maps, double *v,
+                         struct irb_error *err)
 {
-    struct irb_temporal_flip flip;
-    struct irb_flicker_scores flicker =
-        irb_score_flicker(previous, &image->pair, image->mean_reference);
+    struct irb_pair pair = previous_pair(image->full, context, previous);
+    double mean = image->mean_reference;
+    if (!irb_warp_pair(&change->before, &pair, context->motion, err) ||
+        !irb_temporal_flip(&change->flip, &change->before.pair, &image->pair, view,
+                           context->constants->exposure, err))
+        return false;
+    struct irb_flicker_scores flicker = irb_score_flicker(&change->before.pair, &image->pair, mean);
     v[RANKED(image, flicker)] = flicker.flicker;
     v[RANKED(image, pop_share)] = flicker.pop_share;
-    bool ok = irb_temporal_flip(&flip, previous, &image->pair, view, exposure, err) &&
-              (!maps || irb_residual_map(previous, &image->pair, image->mean_reference,
-                                         &maps->residual, err));
-    v[RANKED(image, temporal_flip)] = flip.mean;
-    irb_temporal_flip_destroy(&flip);
-    return ok;
+    v[RANKED(image, temporal_flip)] = change->flip.mean;
+    return !maps ||
+           irb_residual_map(&change->before.pair, &image->pair, mean, &maps->residual, err);
 }
 
 /* All scores of one ranked image; maps may be NULL. */
@@ -192,20 +220,16 @@ static bool score_ranked(struct irb_frame_scores *scores, const struct irb_score
     double *v = scores->values, exposure = context->constants->exposure;
     struct irb_target_view view = {0};
     struct irb_image flip_map = {0};
-    struct irb_warped_pair before = {0};
+    struct change change = {0};
     bool wants_map = maps || trial->entry->region_count > 0;
     bool ok = irb_target_view_create(&view, image->pair.test, exposure, 1, err) &&
               score_flip(image, wants_map ? &flip_map : NULL, v, err) &&
-              score_view(image, &view, v, err);
-    if (ok && previous) {
-        struct irb_pair pair = previous_pair(image->full, context, previous);
-        ok = irb_warp_pair(&before, &pair, context->motion, err) &&
-             score_change(image, &before.pair, &view, exposure, maps, v, err);
-    }
-    if (ok)
-        score_regions(context, image, &flip_map, previous ? &before.pair : NULL, scores,
-                      trial->entry);
-    irb_warped_pair_destroy(&before);
+              score_view(image, &view, v, err) &&
+              (!previous || score_change(&change, context, image, previous, &view, maps, v, err)) &&
+              score_regions(context, image, &flip_map, previous ? &change : NULL, scores,
+                            trial->entry, err);
+    irb_warped_pair_destroy(&change.before);
+    irb_temporal_flip_destroy(&change.flip);
     if (maps)
         maps->flip = flip_map; /* moved */
     else

@@ -76,6 +76,20 @@ bool irb_temporal_flip(struct irb_temporal_flip *out, const struct irb_pair *pre
     return ok;
 }
 
+bool irb_temporal_flip_mean(const struct irb_temporal_flip *flip, const uint8_t *mask, double *mean,
+                            struct irb_error *err)
+{
+    size_t pixels = irb_image_pixels(&flip->map);
+    uint8_t *both = malloc(pixels);
+    if (!both)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for a mask of %zu pixels", pixels);
+    for (size_t i = 0; i < pixels; i++)
+        both[i] = flip->mask[i] && mask[i];
+    *mean = irb_masked_mean(&flip->map, both);
+    free(both);
+    return true;
+}
+
 void irb_temporal_flip_destroy(struct irb_temporal_flip *flip)
 {
     irb_image_destroy(&flip->map);

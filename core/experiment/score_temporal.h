@@ -33,6 +33,9 @@ struct irb_temporal_flip {
 bool irb_temporal_flip(struct irb_temporal_flip *out, const struct irb_pair *previous,
                        const struct irb_pair *current, const struct irb_target_view *shown,
                        double exposure, struct irb_error *err);
+/* The mean over those of the pixels that `mask` has; NaN for none. */
+bool irb_temporal_flip_mean(const struct irb_temporal_flip *flip, const uint8_t *mask, double *mean,
+                            struct irb_error *err);
 void irb_temporal_flip_destroy(struct irb_temporal_flip *flip);
 
 #endif

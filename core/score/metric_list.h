@@ -87,7 +87,13 @@
 
 /* Scored in regions: X(name). */
 #define IRB_REGION_METRICS_OF_IMAGE(X, image)                                                      \
-    X(image##_rmse) X(image##_relmse) X(image##_bias) X(image##_flip) X(image##_flicker)
+    X(image##_rmse)                                                                                \
+    X(image##_relmse)                                                                              \
+    X(image##_bias)                                                                                \
+    X(image##_flip)                                                                                \
+    X(image##_flicker)                                                                             \
+    X(image##_pop_share)                                                                           \
+    X(image##_temporal_flip)
 #define IRB_REGION_METRICS(X)                                                                      \
     IRB_REGION_METRICS_OF_IMAGE(X, indirect) IRB_REGION_METRICS_OF_IMAGE(X, full)
 

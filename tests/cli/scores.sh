@@ -51,7 +51,7 @@ if not eval(sys.argv[3]):
 check "a run" "$IRBENCH" run "$work/scores.yaml" --out "$work/plain"
 json "$work/plain" >"$work/now.json"
 cp "$work/now.json" "$work/before.json"
-for metric in rmse relmse bias flip flicker; do
+for metric in rmse relmse bias flip flicker pop_share temporal_flip; do
     for image in indirect full; do
         holds "the region of the whole image" "near(row['${image}_$metric@all'], row['${image}_$metric'])"
     done
@@ -59,7 +59,7 @@ done
 # A mean over the image is that of two halves, weighed by their pixels with geometry: one share for
 # all metrics.
 share="(row['full_bias'] - row['full_bias@right']) / (row['full_bias@left'] - row['full_bias@right'])"
-for metric in full_relmse full_flip indirect_relmse indirect_bias indirect_flip; do
+for metric in full_relmse full_flip indirect_relmse indirect_bias indirect_flip indirect_pop_share indirect_temporal_flip; do
     holds "two halves make a whole" "0.4 < $share < 0.6 and near(row['$metric'], row['$metric@left'] * $share + row['$metric@right'] * (1 - $share), 1e-5)"
 done
 holds "a patch is no whole" "not near(row['full_rmse@patch'], row['full_rmse'], 1e-3)"
