@@ -124,6 +124,19 @@ static bool score_flip(const struct ranked *image, struct irb_image *map, double
     return true;
 }
 
+/* By how much HDR-FLIP grows with as much noise again in the reference. */
+static bool score_flip_noise(const struct irb_target *target, const struct irb_image *indirect,
+                             double *v, struct irb_error *err)
+{
+    struct irb_flip_scores scores;
+    if (!target->flip_noisy)
+        return true;
+    if (!irb_flip_hdr_prepared(indirect, target->flip_noisy, target->mask, 1, NULL, &scores, err))
+        return false;
+    v[IRB_METRIC_indirect_flip_noise] = scores.mean - v[IRB_METRIC_indirect_flip];
+    return true;
+}
+
 /* SSIM and LDR-FLIP. */
 static bool score_view(const struct ranked *image, const struct irb_target_view *view, double *v,
                        struct irb_error *err)
@@ -282,6 +295,7 @@ bool irb_score_frame(struct irb_frame_scores *scores, const struct irb_score_con
         irb_lag_errors(c->lag, current->frame, &current->indirect, target->mask,
                        scores->lag_errors);
     scores->present = score_ranked(scores, context, trial, &indirect, previous, maps, err) &&
+                      score_flip_noise(target, &current->indirect, v, err) &&
                       score_ranked(scores, context, trial, &full, previous, NULL, err);
     return scores->present;
 }

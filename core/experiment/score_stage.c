@@ -139,10 +139,18 @@ static int count_missing(const struct scoring *s, int frame)
     return missing;
 }
 
+/* What is made once for all trials. */
+static bool prepare_target(struct scoring *s, struct irb_error *err)
+{
+    int threads = s->run->options->threads;
+    bool middle = s->frame == s->sequence->frame_count / 2;
+    return irb_target_prepare(&s->target, s->sequence->entry, &s->constants, threads, err) &&
+           (!middle || irb_target_prepare_noisy(&s->target, &s->constants, threads, err));
+}
+
 static bool score_one_frame(struct scoring *s, struct irb_error *err)
 {
-    if (!load_targets(s, err) || !irb_target_prepare(&s->target, s->sequence->entry, &s->constants,
-                                                     s->run->options->threads, err))
+    if (!load_targets(s, err) || !prepare_target(s, err))
         return false;
     if (irb_film_wanted(s->run->config) &&
         !irb_film_target(s->run->dir, s->sequence->entry->name, s->frame, &s->target, &s->constants,

@@ -6,6 +6,7 @@
 #include "core/frame/composite.h"
 #include "core/image/exr.h"
 #include "core/score/metrics.h"
+#include "core/score/noise.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,7 +37,8 @@ void irb_target_unprepare(struct irb_target *target)
 {
     irb_flip_reference_destroy(target->flip_indirect);
     irb_flip_reference_destroy(target->flip_full);
-    target->flip_indirect = target->flip_full = NULL;
+    irb_flip_reference_destroy(target->flip_noisy);
+    target->flip_indirect = target->flip_full = target->flip_noisy = NULL;
     irb_target_view_destroy(&target->view_indirect);
     irb_target_view_destroy(&target->view_full);
     for (int i = 0; i < IRB_MOST_REGIONS; i++) {
@@ -88,6 +90,21 @@ bool irb_target_prepare(struct irb_target *target, const struct irb_scene_entry 
     return true;
 }
 
+bool irb_target_prepare_noisy(struct irb_target *target,
+                              const struct irb_target_constants *constants, int threads,
+                              struct irb_error *err)
+{
+    const uint64_t seed = 1; /* any; the reference's own samples come from other sequences */
+    struct irb_image noisy = {0};
+    if (!constants->indirect_lit)
+        return true;
+    if (irb_noisy_image(&target->indirect, &target->deviation, seed, &noisy, err))
+        target->flip_noisy = irb_flip_reference_create(&noisy, &constants->flip_indirect,
+                                                       IRB_FLIP_PPD, threads, err);
+    irb_image_destroy(&noisy);
+    return target->flip_noisy != NULL;
+}
+
 void irb_target_destroy(struct irb_target *target)
 {
     irb_target_unprepare(target);
@@ -96,6 +113,7 @@ void irb_target_destroy(struct irb_target *target)
     irb_image_destroy(&target->direct);
     irb_image_destroy(&target->direct_reference);
     irb_image_destroy(&target->indirect);
+    irb_image_destroy(&target->deviation);
     irb_image_destroy(&target->full);
     irb_image_destroy(&target->solution);
     irb_image_destroy(&target->claim);
@@ -172,6 +190,23 @@ static void noise_of(struct irb_target *target, const struct irb_image *variance
     target->noise_relmse = counted ? relative / (double)counted : 0;
 }
 
+/* Standard deviation of the irradiance's luminance (Rec.709, as the tracer takes it), relative. */
+static bool deviation_of(struct irb_target *target, const struct irb_reference_image *reference,
+                         struct irb_error *err)
+{
+    const struct irb_image *irradiance = &reference->bounce1;
+    if (!irb_image_create(&target->deviation, irradiance->width, irradiance->height, 1, err))
+        return false;
+    for (size_t i = 0; i < irb_image_pixels(irradiance); i++) {
+        const float *e = irradiance->data + 3 * i;
+        double luminance = 0.2126 * e[0] + 0.7152 * e[1] + 0.0722 * e[2];
+        if (luminance > 0)
+            target->deviation.data[i] =
+                (float)(sqrt(fmax(0, reference->variance.data[i])) / luminance);
+    }
+    return true;
+}
+
 static bool load_reference(struct irb_reference_image *reference, const struct irb_run *run,
                            const struct irb_sequence_frame *frame, struct irb_error *err)
 {
@@ -199,7 +234,7 @@ bool irb_target_load(struct irb_target *target, const struct irb_run *run,
                             &target->indirect, &target->full, err) &&
               irb_composite(&target->gbuffer, &reference.direct, &reference.unoccluded, NULL,
                             &target->claim, &unused, err) &&
-              add_higher_bounces(target, &reference, err);
+              add_higher_bounces(target, &reference, err) && deviation_of(target, &reference, err);
     if (ok) {
         noise_of(target, &reference.variance, constants);
         target->direct_reference = reference.direct; /* moved */

@@ -39,6 +39,10 @@ struct irb_target {
     struct irb_target_view view_indirect, view_full;      /* empty until irb_target_prepare */
     uint8_t *regions[IRB_MOST_REGIONS]; /* masks of the scene's regions; NULL until then */
     double noise_variance;              /* mean variance of `indirect` over counted pixels */
+    struct irb_image deviation; /* of the irradiance's luminance by its own noise, over that; 1
+                                   channel, 0 where it is black */
+    struct irb_flip_reference *flip_noisy; /* of `indirect` with as much noise again; NULL until
+                                              irb_target_prepare_noisy */
     double noise_relmse; /* the same relative to indirect^2 + eps: an error below it says nothing */
 };
 
@@ -68,6 +72,10 @@ void irb_target_destroy(struct irb_target *target);
 bool irb_target_prepare(struct irb_target *target, const struct irb_scene_entry *entry,
                         const struct irb_target_constants *constants, int threads,
                         struct irb_error *err);
+/* Makes flip_noisy; nothing where the sequence is black. The same noise in every call. */
+bool irb_target_prepare_noisy(struct irb_target *target,
+                              const struct irb_target_constants *constants, int threads,
+                              struct irb_error *err);
 void irb_target_unprepare(struct irb_target *target);
 
 bool irb_target_constants_of(struct irb_target_constants *constants, const struct irb_run *run,

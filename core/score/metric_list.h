@@ -75,6 +75,10 @@
       "relative MSE that the reference's own noise makes in the indirect image; an error below "   \
       "it is not ranked")                                                                          \
     X(reference_flicker, "", NONE, "flicker that the reference's own noise can make: the floor")   \
+    X(indirect_flip_noise, "", NONE,                                                               \
+      "by how much indirect_flip grows in the middle frame with as much noise again in the "       \
+      "reference: indirect_flip less this estimates FLIP against a reference without noise "       \
+      "(Cook and Stefanski 1994)")                                                                 \
     X(frame_ms, "ms", LOWER, "time of a frame, median over the sequence and its repeats")          \
     X(frame_ms_mean, "ms", LOWER,                                                                  \
       "time of a frame, mean over the sequence: what happens in some frames only is spread over "  \

@@ -63,6 +63,7 @@ for metric in full_relmse full_flip indirect_relmse indirect_bias indirect_flip 
     holds "two halves make a whole" "0.4 < $share < 0.6 and near(row['$metric'], row['$metric@left'] * $share + row['$metric@right'] * (1 - $share), 1e-5)"
 done
 holds "a patch is no whole" "not near(row['full_rmse@patch'], row['full_rmse'], 1e-3)"
+holds "noise makes a part of FLIP" "0 < row['indirect_flip_noise'] < row['indirect_flip']"
 holds "nothing is masked" "row['masked_share'] == 0"
 holds "a method without history has no lag" "row['lag'] == 0"
 holds "shares and similarities" "0 < row['indirect_smape'] < 1 and 0 < row['indirect_ssim'] < 1 and 0 < row['full_ldr_flip'] < 1 and 0 < row['full_temporal_flip'] < 1"
