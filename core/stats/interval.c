@@ -8,7 +8,6 @@
 enum {
     ENUMERATED_UNITS = 5, /* up to which all count^count resamples are gone through */
     LEAST_RESAMPLES = 2048,
-    MOST_RESAMPLES = 3125, /* 5^5 */
 };
 
 const char *const irb_unit_names[IRB_UNIT_COUNT] = {"none", "seed", "repeat", "block"};
@@ -48,12 +47,6 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double t_of(const double *y, int count)
 {
     double mean = 0, squares = 0;
@@ -85,7 +78,7 @@ static void resample(const double *z, int count, uint64_t r, double *y, double t
         uint64_t counter = r * (uint64_t)count + (uint64_t)i;
         int pick = count <= ENUMERATED_UNITS ? (int)(digits % (uint64_t)count)
                                              : irb_rng_below(1, counter, count);
-        double noise = width * irb_rng_normal(2, counter);
+        double noise = width * irb_rng_bell(2, counter);
         y[i] = z[pick] + noise;
         y[count + i] = z[pick] - noise;
     }
@@ -93,24 +86,41 @@ static void resample(const double *z, int count, uint64_t r, double *y, double t
     t[1] = t_of(y + count, count);
 }
 
-/* The studentised error of the mean that a resample falls below, or above, with half of
- * 1 - confidence each. z: standardised units. false: no memory. */
+/* Puts t among the `rank` smallest so far, which rise. */
+static void keep_smallest(double *smallest, int rank, double t)
+{
+    int i = rank - 1;
+    if (!(t < smallest[i]))
+        return;
+    for (; i > 0 && t < smallest[i - 1]; i--)
+        smallest[i] = smallest[i - 1];
+    smallest[i] = t;
+}
+
+/* The studentised mean that a share (1 - confidence)/2 of the resamples falls below, or rises
+ * above: the quantiles k/(B + 1) of B. z: standardised units. false: no memory. */
 static bool t_bounds(double *z, int count, double confidence, double bounds[2])
 {
-    double t[2 * MOST_RESAMPLES];
-    double *y = malloc(2 * (size_t)count * sizeof *y);
-    if (!y)
-        return false;
-    qsort(z, (size_t)count, sizeof *z, by_size);
     const int resamples = resamples_of(count), drawn = 2 * resamples;
-    for (int r = 0; r < resamples; r++)
-        resample(z, count, (uint64_t)r, y, t + 2 * r);
-    free(y);
-    qsort(t, (size_t)drawn, sizeof *t, by_value);
-    int rank = (int)floor(0.5 * (1 - confidence) * (drawn + 1));
+    int rank = (int)(0.5 * (1 - confidence) * (drawn + 1));
     rank = rank < 1 ? 1 : rank;
-    bounds[0] = t[rank - 1];
-    bounds[1] = t[drawn - rank];
+    double *tails = malloc((2 * (size_t)rank + 2 * (size_t)count) * sizeof *tails);
+    if (!tails)
+        return false;
+    for (int i = 0; i < 2 * rank; i++)
+        tails[i] = INFINITY;
+    qsort(z, (size_t)count, sizeof *z, by_size);
+    for (int r = 0; r < resamples; r++) {
+        double t[2];
+        resample(z, count, (uint64_t)r, tails + 2 * rank, t);
+        for (int i = 0; i < 2; i++) {
+            keep_smallest(tails, rank, t[i]);
+            keep_smallest(tails + rank, rank, -t[i]);
+        }
+    }
+    bounds[0] = tails[rank - 1];
+    bounds[1] = -tails[2 * rank - 1];
+    free(tails);
     return true;
 }
 

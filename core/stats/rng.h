@@ -6,7 +6,6 @@
 #ifndef IRB_STATS_RNG_H
 #define IRB_STATS_RNG_H
 
-#include <math.h>
 #include <stdint.h>
 
 /* 64 bits: SplitMix64 (Steele, Lea and Flood 2014) at position `counter` of stream `seed`. */
@@ -19,23 +18,22 @@ static inline uint64_t irb_rng_bits(uint64_t seed, uint64_t counter)
     return v ^ v >> 31;
 }
 
-/* Uniform in (0,1). */
-static inline double irb_rng_uniform(uint64_t seed, uint64_t counter)
-{
-    return ((double)(irb_rng_bits(seed, counter) >> 11) + 0.5) * 0x1p-53;
-}
-
 /* Uniform in 0..count-1; count > 0. */
 static inline int irb_rng_below(uint64_t seed, uint64_t counter, int count)
 {
     return (int)((irb_rng_bits(seed, counter) >> 32) * (uint64_t)count >> 32);
 }
 
-/* Standard normal (Box and Muller 1958). Takes the uniforms 2*counter and 2*counter + 1. */
-static inline double irb_rng_normal(uint64_t seed, uint64_t counter)
+/* Mean 0 and variance 1, the sum of four uniforms: a cubic B-spline in the place of the normal
+ * density, within 3.46 and with a kurtosis of 2.7. Whole numbers but for the last step, so that
+ * it has the same bits on every machine. */
+static inline double irb_rng_bell(uint64_t seed, uint64_t counter)
 {
-    double radius = sqrt(-2 * log(irb_rng_uniform(seed, 2 * counter)));
-    return radius * cos(2 * 3.14159265358979323846 * irb_rng_uniform(seed, 2 * counter + 1));
+    const uint64_t bits = irb_rng_bits(seed, counter);
+    const int64_t sum =
+        (int64_t)((bits & 0xffff) + (bits >> 16 & 0xffff) + (bits >> 32 & 0xffff) + (bits >> 48)) -
+        2 * 0xffff;
+    return (double)sum * 0x1.bb67ae8584caap-16; /* sqrt(3)/65536 */
 }
 
 #endif
