@@ -44,6 +44,7 @@ struct irb_cli {
     bool keep_all, key;
     bool per_seed;                  /* --per-seed */
     enum irb_table_subject subject; /* --stages, --statistics, --frames */
+    const char *figure;             /* --figure, NULL = none */
     char *run_dir;                  /* owned: where a command has left results, else NULL */
     char *command_line;             /* owned: as it was given, for provenance */
     struct irb_log log;

@@ -4,6 +4,7 @@
  */
 #include "core/cli/cli.h"
 #include "core/experiment/run.h"
+#include "core/report/figures.h"
 #include "core/report/table.h"
 
 #include <stdio.h>
@@ -73,8 +74,26 @@ bool irb_command_run(struct irb_cli *cli, struct irb_error *err)
     return ok;
 }
 
+static bool print_figure(const struct irb_cli *cli, const char *run_dir, struct irb_error *err)
+{
+    enum irb_figure figure;
+    if (!irb_figure_parse(cli->figure, &figure, err))
+        return false;
+    if (cli->format && strcmp(cli->format, "csv"))
+        return irb_fail(err, IRB_E_USAGE,
+                        "format: a figure's numbers are printed as csv, not as %s", cli->format);
+    struct irb_store *store = irb_store_open(run_dir, false, err);
+    if (!store)
+        return false;
+    bool ok = irb_figure_csv(stdout, store, figure, NULL, err);
+    irb_store_close(store);
+    return ok;
+}
+
 bool irb_command_table(struct irb_cli *cli, struct irb_error *err)
 {
+    if (cli->figure)
+        return print_figure(cli, cli->arguments[0], err);
     return print_table(cli, cli->arguments[0], err);
 }
 

@@ -210,6 +210,13 @@ static bool set_frames(struct irb_cli *cli, const char *value, struct irb_error 
     return set_subject(cli, IRB_TABLE_FRAMES, err);
 }
 
+static bool set_figure(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->figure = value;
+    return true;
+}
+
 static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)value, (void)err;
@@ -246,6 +253,9 @@ const struct irb_cli_option irb_cli_options[] = {
      set_statistics},
     {"--frames", NULL, NULL,
      "tables: scores, times and statistics of every frame, as csv (default) or json", set_frames},
+    {"--figure", NULL, "KIND",
+     "tables: the numbers behind a figure as csv: pareto, stages, timeline, convergence or flicker",
+     set_figure},
     {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},

@@ -29,6 +29,13 @@ void irb_csv_number(struct irb_str *out, double value)
         irb_str_printf(out, "%.9g", value);
 }
 
+void irb_csv_measure(struct irb_str *out, const struct irb_measure *measure)
+{
+    irb_csv_number(out, measure->interval.value);
+    irb_csv_number(out, measure->interval.low);
+    irb_csv_number(out, measure->interval.high);
+}
+
 void irb_csv_title(struct irb_str *out, const char *before, const char *name, const char *behind)
 {
     char *title = irb_asprintf("%s%s%s", before, name, behind);

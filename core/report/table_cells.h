@@ -7,12 +7,15 @@
 #define IRB_REPORT_TABLE_CELLS_H
 
 #include "core/base/str.h"
+#include "core/report/analysis.h"
 #include "core/report/table_data.h"
 
 /* Quoted where it has to be. */
 void irb_csv_text(struct irb_str *out, const char *text);
 /* A comma and the number; nothing behind it for NaN. */
 void irb_csv_number(struct irb_str *out, double value);
+/* Value, low and high. */
+void irb_csv_measure(struct irb_str *out, const struct irb_measure *measure);
 /* A comma and "BEFORE NAME BEHIND" as one text. */
 void irb_csv_title(struct irb_str *out, const char *before, const char *name, const char *behind);
 /* ", "BEFORE NAME BEHIND": number" */

@@ -266,8 +266,8 @@ static void name_seeds(struct irb_table_data *data)
     }
 }
 
-bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, bool per_seed,
-                         struct irb_error *err)
+bool irb_table_data_read_seeds(struct irb_table_data *data, struct irb_store *store,
+                               struct irb_error *err)
 {
     *data = (struct irb_table_data){0};
     if (!irb_store_trials(store, &data->trials, err))
@@ -285,12 +285,43 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, b
         return false;
     }
     pad_rows(data);
+    data->provenance = read_provenance(data, store);
+    return true;
+}
+
+/* Gives every row its intervals. */
+static void connect_intervals(struct irb_table_data *data)
+{
+    const struct irb_analysis *analysis = &data->analysis;
+    for (int i = 0; i < data->row_count; i++) {
+        struct irb_table_row *row = &data->rows[i];
+        int scene = irb_analysis_scene_find(analysis, row->trial->scene);
+        int trial =
+            scene < 0 ? -1 : irb_analysis_trial_find(&analysis->scenes[scene], row->trial->trial);
+        row->measured = trial < 0 ? NULL : &analysis->scenes[scene].trials[trial];
+        for (int m = 0; row->measured && m < IRB_METRIC_COUNT; m++)
+            data->has_intervals =
+                data->has_intervals || row->measured->measures[m].unit != IRB_UNIT_NONE;
+    }
+}
+
+bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, bool per_seed,
+                         struct irb_error *err)
+{
+    if (!irb_table_data_read_seeds(data, store, err))
+        return false;
     if (per_seed)
         name_seeds(data);
     else
         irb_table_data_merge_seeds(data);
     irb_table_partial_name(data);
-    data->provenance = read_provenance(data, store);
+    if (per_seed)
+        return true;
+    if (!irb_analysis_read(&data->analysis, store, IRB_CONFIDENCE, err)) {
+        irb_table_data_destroy(data);
+        return false;
+    }
+    connect_intervals(data);
     return true;
 }
 
@@ -307,6 +338,7 @@ void irb_table_data_destroy(struct irb_table_data *data)
 {
     for (int i = 0; i < data->row_count; i++)
         irb_table_row_free(&data->rows[i]);
+    irb_analysis_destroy(&data->analysis);
     free(data->provenance);
     irb_names_destroy(&data->stages);
     irb_names_destroy(&data->region_metrics);

@@ -6,7 +6,7 @@
 #ifndef IRB_REPORT_TABLE_DATA_H
 #define IRB_REPORT_TABLE_DATA_H
 
-#include "core/report/names.h"
+#include "core/report/analysis.h"
 #include "core/store/store.h"
 #include "core/score/metric_list.h"
 
@@ -26,7 +26,9 @@ struct irb_table_row {
     double spread[IRB_METRIC_COUNT];  /* standard deviation over the seeds; NaN below two of them */
     struct irb_values stage_ms;       /* medians */
     struct irb_values regions;
-    struct irb_values statistics; /* means */
+    struct irb_values statistics;              /* means */
+    bool same[IRB_METRIC_COUNT];               /* not distinguishable from the best of its scene */
+    const struct irb_analysis_trial *measured; /* its intervals, borrowed; NULL for a row a seed */
     char *choices; /* how the scene was scored: eps, exposures; "" where unknown; owned */
 };
 
@@ -35,14 +37,20 @@ struct irb_table_data {
     struct irb_table_row *rows; /* scenes in order of appearance, their trials together */
     int row_count;
     bool has_spread;                 /* some row is of several seeds */
+    bool has_intervals;              /* some row has one */
+    struct irb_analysis analysis;    /* empty for rows a seed */
     struct irb_names stages;         /* of all trials, in the order in which they run */
     struct irb_names region_metrics; /* "METRIC@REGION" of all trials, in order of appearance */
     struct irb_names statistics;     /* likewise */
     char *provenance; /* what was measured with what, in one line; "" where unknown; owned */
 };
 
+/* Intervals come with rows of means alone. */
 bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, bool per_seed,
                          struct irb_error *err);
+/* A row for each seed, under the trial's name alone: what all the others are made from. */
+bool irb_table_data_read_seeds(struct irb_table_data *data, struct irb_store *store,
+                               struct irb_error *err);
 /* Puts the names of all stages in the order in which a frame runs them, as the render stage has
  * stored it: the core's own first, then those of each method. */
 void irb_table_order_stages(struct irb_names *stages, struct irb_store *store,
