@@ -43,7 +43,8 @@ struct irb_cli {
     double minutes;  /* --minutes, 0 = no limit */
     bool keep_all, key;
     bool per_seed;                  /* --per-seed */
-    enum irb_table_subject subject; /* --stages, --statistics, --frames */
+    enum irb_table_subject subject; /* --stages, --statistics, --frames, --ratio */
+    const char *against;            /* --ratio, NULL = none */
     const char *figure;             /* --figure, NULL = none */
     char *run_dir;                  /* owned: where a command has left results, else NULL */
     char *command_line;             /* owned: as it was given, for provenance */

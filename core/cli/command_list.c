@@ -23,13 +23,14 @@ const struct irb_command irb_commands[] = {
      "the\n"
      "median time of every stage and --statistics the mean of what methods report of their frames, "
      "in\n"
-     "a table for each method of a scene; --frames has a row for every frame, and --figure the "
-     "numbers\n"
-     "of a figure, for plots.\n\n"
+     "a table for each method of a scene; --ratio holds all trials against one. --frames has a row "
+     "for\n"
+     "every frame, and --figure the numbers of a figure, for plots.\n\n"
      "  irbench table results/runs/quick-1a2b3c4d\n"
      "  irbench table results/runs/quick-1a2b3c4d --format json\n"
      "  irbench table results/runs/seeds-1a2b3c4d --format latex --per-seed\n"
      "  irbench table results/runs/quick-1a2b3c4d --stages --format md\n"
+     "  irbench table results/runs/quick-1a2b3c4d --ratio ism:vpls=512\n"
      "  irbench table results/runs/quick-1a2b3c4d --frames > frames.csv\n"
      "  irbench table results/runs/quick-1a2b3c4d --figure pareto > pareto.csv\n",
      irb_command_table},

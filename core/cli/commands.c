@@ -21,6 +21,7 @@ static bool table_options(const struct irb_cli *cli, struct irb_table_options *o
         .subject = cli->subject,
         .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color),
         .per_seed = cli->per_seed,
+        .against = cli->against,
     };
     return (!cli->format || irb_table_format_parse(cli->format, &options->format, err)) &&
            irb_table_check(options, err);

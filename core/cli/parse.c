@@ -186,8 +186,8 @@ static bool set_subject(struct irb_cli *cli, enum irb_table_subject subject, str
 {
     if (cli->subject != IRB_TABLE_SCORES && cli->subject != subject)
         return irb_fail(err, IRB_E_USAGE,
-                        "--stages, --statistics and --frames are three tables; expected one of "
-                        "them");
+                        "--stages, --statistics, --frames and --ratio are four tables; expected "
+                        "one of them");
     cli->subject = subject;
     return true;
 }
@@ -208,6 +208,12 @@ static bool set_frames(struct irb_cli *cli, const char *value, struct irb_error 
 {
     (void)value;
     return set_subject(cli, IRB_TABLE_FRAMES, err);
+}
+
+static bool set_ratio(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    cli->against = value;
+    return set_subject(cli, IRB_TABLE_RATIO, err);
 }
 
 static bool set_figure(struct irb_cli *cli, const char *value, struct irb_error *err)
@@ -253,6 +259,8 @@ const struct irb_cli_option irb_cli_options[] = {
      set_statistics},
     {"--frames", NULL, NULL,
      "tables: scores, times and statistics of every frame, as csv (default) or json", set_frames},
+    {"--ratio", NULL, "TRIAL",
+     "tables: every trial against this one: ratios with intervals from paired units", set_ratio},
     {"--figure", NULL, "KIND",
      "tables: the numbers behind a figure as csv: pareto, stages, timeline, convergence or flicker",
      set_figure},

@@ -10,7 +10,9 @@
 #include "core/report/table_latex.h"
 #include "core/report/table_measures.h"
 #include "core/report/table_partial.h"
+#include "core/report/table_ratio.h"
 #include "core/report/table_text.h"
+#include "core/report/table_view.h"
 
 #include <errno.h>
 #include <string.h>
@@ -31,6 +33,15 @@ bool irb_table_format_parse(const char *text, enum irb_table_format *format, str
 
 /* ---- json ---- */
 
+static void json_interval(const struct irb_table_row *row, int metric, struct irb_str *out)
+{
+    const struct irb_measure *m = &row->measured->measures[metric];
+    const char *name = irb_metrics[metric].name;
+    irb_json_member(out, "", name, "_low", m->interval.low);
+    irb_json_member(out, "", name, "_high", m->interval.high);
+    irb_str_printf(out, ", \"%s_unit\": \"%s\"", name, irb_unit_names[m->unit]);
+}
+
 static void json_row(const struct irb_table_data *data, const struct irb_table_row *row,
                      struct irb_str *out)
 {
@@ -43,6 +54,8 @@ static void json_row(const struct irb_table_data *data, const struct irb_table_r
         irb_json_member(out, "stage_", data->stages.list[i], "_ms", row->stage_ms.list[i]);
     for (int i = 0; data->has_spread && i < IRB_METRIC_COUNT; i++)
         irb_json_member(out, "", irb_metrics[i].name, "_sd", row->spread[i]);
+    for (int i = 0; row->measured && i < IRB_RANKED_METRICS; i++)
+        json_interval(row, irb_ranked_metrics[i], out);
     irb_str_printf(out, "}");
 }
 
@@ -69,6 +82,11 @@ static void csv_header(const struct irb_table_data *data, struct irb_str *out)
         irb_csv_title(out, "stage_", data->stages.list[i], "_ms");
     for (int i = 0; data->has_spread && i < IRB_METRIC_COUNT; i++)
         irb_csv_title(out, "", irb_metrics[i].name, "_sd");
+    for (int i = 0; data->analysis.scene_count && i < IRB_RANKED_METRICS; i++) {
+        irb_csv_title(out, "", irb_metrics[irb_ranked_metrics[i]].name, "_low");
+        irb_csv_title(out, "", irb_metrics[irb_ranked_metrics[i]].name, "_high");
+        irb_csv_title(out, "", irb_metrics[irb_ranked_metrics[i]].name, "_unit");
+    }
     irb_str_printf(out, "\n");
 }
 
@@ -84,6 +102,12 @@ static void csv_row(const struct irb_table_data *data, const struct irb_table_ro
         irb_csv_number(out, row->stage_ms.list[s]);
     for (int m = 0; data->has_spread && m < IRB_METRIC_COUNT; m++)
         irb_csv_number(out, row->spread[m]);
+    for (int i = 0; row->measured && i < IRB_RANKED_METRICS; i++) {
+        const struct irb_measure *m = &row->measured->measures[irb_ranked_metrics[i]];
+        irb_csv_number(out, m->interval.low);
+        irb_csv_number(out, m->interval.high);
+        irb_str_printf(out, ",%s", irb_unit_names[m->unit]);
+    }
     irb_str_printf(out, "\n");
 }
 
@@ -96,9 +120,12 @@ static void write_csv(const struct irb_table_data *data, struct irb_str *out)
 
 /* ---- which table, and how ---- */
 
-static void write_scores(const struct irb_table_data *data, const struct irb_table_options *options,
+static void write_scores(struct irb_table_data *data, const struct irb_table_options *options,
                          struct irb_str *out)
 {
+    bool for_people = options->format != IRB_TABLE_CSV && options->format != IRB_TABLE_JSON;
+    if (for_people)
+        irb_table_find_same(data);
     switch (options->format) {
     case IRB_TABLE_TEXT:
         irb_table_text(data, options->colour, out);
@@ -124,6 +151,8 @@ static bool write_subject(struct irb_store *store, const struct irb_table_option
     struct irb_table_data data;
     if (options->subject == IRB_TABLE_FRAMES)
         return irb_table_frames(store, options->format, out, err);
+    if (options->subject == IRB_TABLE_RATIO)
+        return irb_table_ratio(store, options, out, err);
     if (!irb_table_data_read(&data, store, options->per_seed, err))
         return false;
     if (options->subject == IRB_TABLE_SCORES)
@@ -137,6 +166,8 @@ static bool write_subject(struct irb_store *store, const struct irb_table_option
 bool irb_table_check(const struct irb_table_options *options, struct irb_error *err)
 {
     bool for_programs = options->format == IRB_TABLE_CSV || options->format == IRB_TABLE_JSON;
+    if (options->subject == IRB_TABLE_RATIO && options->per_seed)
+        return irb_fail(err, IRB_E_USAGE, "--ratio is over all seeds; leave out --per-seed");
     return options->subject != IRB_TABLE_FRAMES || for_programs ||
            irb_fail(err, IRB_E_USAGE, "format: frames are printed as csv or json, not as %s",
                     irb_table_format_names[options->format]);

@@ -6,9 +6,10 @@
  * csv and json hold everything: scene, method, trial, params, seed (none for a mean), seeds (how
  * many the mean is of), then one column for each metric of core/score/metric_list.h,
  * METRIC@REGION for each region that any scene has, stage_<name>_ms for each stage that any trial
- * has, and METRIC_sd, the standard deviation over the seeds, where any row is a mean. text, md and
+ * has, METRIC_sd, the standard deviation over the seeds, where any row is a mean, and METRIC_low,
+ * _high and _unit, the 95 % interval and what it is over, of irb_ranked_metrics. text, md and
  * latex (for the package booktabs) show the metrics that matter most, grouped by scene, with the
- * best value of each column marked.
+ * best value of each column marked, and all that are not distinguishable from it (analysis.h).
  *
  * Errors are those of the sequence; times are over the frames >= 0 of all repeats. A value that is
  * not there is null (json), empty (csv) or "-".
@@ -40,19 +41,22 @@ enum irb_table_format {
 extern const char *const irb_table_format_names[]; /* "text", "csv", "md", "json", "latex", NULL */
 
 /* What is shown: the sequences' scores; the median time of every stage; the mean of every statistic
- * that methods report; or scores, times and statistics of every frame. */
+ * that methods report; scores, times and statistics of every frame; or ratios to one trial
+ * (table_ratio.h). */
 enum irb_table_subject {
     IRB_TABLE_SCORES,
     IRB_TABLE_STAGES,
     IRB_TABLE_STATISTICS,
-    IRB_TABLE_FRAMES
+    IRB_TABLE_FRAMES,
+    IRB_TABLE_RATIO
 };
 
 struct irb_table_options {
     enum irb_table_format format;
     enum irb_table_subject subject;
-    bool colour;   /* text: the best values in bold type */
-    bool per_seed; /* a row for each seed, no means */
+    bool colour;         /* text: the best values in bold type */
+    bool per_seed;       /* a row for each seed, no means */
+    const char *against; /* of IRB_TABLE_RATIO: the trial that all others are held against */
 };
 
 /* IRB_E_USAGE names the formats there are. */

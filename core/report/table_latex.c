@@ -86,6 +86,7 @@ static void latex_cell(const struct irb_table_group *group, int r, int c, struct
     irb_str_printf(out, "%s",
                    mark == IRB_MARK_BEST          ? "}"
                    : mark == IRB_MARK_BELOW_FLOOR ? "^{\\sim}"
+                   : mark == IRB_MARK_SAME        ? "^{=}"
                                                   : "");
     if (*spread) {
         irb_str_printf(out, " \\pm ");

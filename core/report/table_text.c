@@ -28,8 +28,8 @@ static const char *unit_of(int column)
 
 /* How the notation marks a value, and what stands before its spread. */
 struct notation {
-    const char *best;  /* round the value */
-    const char *below; /* behind it */
+    const char *best;         /* round the value */
+    const char *below, *same; /* behind it */
     const char *spread;
 };
 
@@ -50,7 +50,9 @@ static void lay_out_column(struct cells *cells, const struct irb_table_group *gr
             cells->spread_width[c] = (int)strlen(spread);
         const char *best = mark == IRB_MARK_BEST ? notation->best : "";
         int length = snprintf(cell(cells, r, c), CELL, "%s%s%s%s", best, number, best,
-                              mark == IRB_MARK_BELOW_FLOOR ? notation->below : "");
+                              mark == IRB_MARK_BELOW_FLOOR ? notation->below
+                              : mark == IRB_MARK_SAME      ? notation->same
+                                                           : "");
         if (notation->spread && *spread)
             length += snprintf(cell(cells, r, c) + length, (size_t)(CELL - length), "%s%s",
                                notation->spread, spread);
@@ -79,7 +81,7 @@ static struct cells lay_out(const struct irb_table_group *group, const struct no
 static void text_cell(const struct irb_table_group *group, const struct cells *cells, int r, int c,
                       bool colour, struct irb_str *out)
 {
-    static const char *const marks[] = {" ", "*", "~"};
+    static const char *const marks[] = {" ", "*", "~", "="};
     const struct irb_column *column = &irb_columns[c];
     const struct irb_table_row *row = &group->rows[r];
     enum irb_mark mark = irb_table_mark(group, column, row);
@@ -116,7 +118,7 @@ static void text_header(const struct irb_table_group *group, const struct cells 
 
 static void text_group(const struct irb_table_group *group, bool colour, struct irb_str *out)
 {
-    struct cells cells = lay_out(group, &(struct notation){"", "", NULL});
+    struct cells cells = lay_out(group, &(struct notation){"", "", "", NULL});
     irb_str_printf(out, "%s%s%s   ", colour ? "\033[1m" : "", group->rows->trial->scene,
                    colour ? "\033[0m" : "");
     irb_table_reference(group, out);
@@ -150,7 +152,7 @@ void irb_table_text(const struct irb_table_data *data, bool colour, struct irb_s
 
 static void markdown_group(const struct irb_table_group *group, struct irb_str *out)
 {
-    struct cells cells = lay_out(group, &(struct notation){"**", "~", " ± "});
+    struct cells cells = lay_out(group, &(struct notation){"**", "~", "=", " ± "});
     irb_str_printf(out, "### %s\n\n| %-*s |", group->rows->trial->scene, cells.name_width, "trial");
     for (int c = 0; c < IRB_COLUMNS; c++) {
         if (!group->shown[c])

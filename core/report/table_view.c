@@ -84,8 +84,38 @@ enum irb_mark irb_table_mark(const struct irb_table_group *group, const struct i
         return IRB_MARK_NONE;
     if (below_floor(column, row))
         return IRB_MARK_BELOW_FLOOR;
-    return irb_metric_badness(column->metric, value) == best_of(group, column) ? IRB_MARK_BEST
-                                                                               : IRB_MARK_NONE;
+    if (irb_metric_badness(column->metric, value) == best_of(group, column))
+        return IRB_MARK_BEST;
+    return row->same[column->metric] ? IRB_MARK_SAME : IRB_MARK_NONE;
+}
+
+static void find_same(const struct irb_analysis *analysis, int scene, struct irb_table_row *rows,
+                      const struct irb_table_group *group, const struct irb_column *column)
+{
+    const struct irb_table_row *best = NULL;
+    const struct irb_analysis_trial *trials = analysis->scenes[scene].trials;
+    for (int i = 0; i < group->count && !best; i++)
+        if (irb_table_mark(group, column, &rows[i]) == IRB_MARK_BEST)
+            best = &rows[i];
+    for (int i = 0; best && i < group->count; i++)
+        if (irb_table_mark(group, column, &rows[i]) == IRB_MARK_NONE)
+            rows[i].same[column->metric] =
+                irb_analysis_compare(analysis, scene, (int)(rows[i].measured - trials),
+                                     (int)(best->measured - trials),
+                                     column->metric) == IRB_VERDICT_SAME;
+}
+
+void irb_table_find_same(struct irb_table_data *data)
+{
+    for (int first = 0; first < data->row_count;) {
+        struct irb_table_row *rows = &data->rows[first];
+        struct irb_table_group group = irb_table_group_at(data, first);
+        int scene = irb_analysis_scene_find(&data->analysis, rows->trial->scene);
+        for (int c = 0; scene >= 0 && c < IRB_COLUMNS; c++)
+            if (group.shown[c])
+                find_same(&data->analysis, scene, rows, &group, &irb_columns[c]);
+        first += group.count;
+    }
 }
 
 static bool column_shown(const struct irb_table_group *group, const struct irb_column *column)
@@ -160,11 +190,14 @@ void irb_table_foot_seeds(const struct irb_table_data *data, bool spread, struct
 
 void irb_table_foot(const char *best, const struct irb_table_data *data, struct irb_str *out)
 {
-    irb_str_printf(
-        out,
-        "%sbest of its column and scene; ~ not above the reference's own noise, not "
-        "ranked.\nErrors are of the indirect image unless said otherwise, against bounce "
-        "1 with exact visibility.\n",
-        best);
+    irb_str_printf(out,
+                   "%sbest of its column and scene; %s~ not above the reference's own noise, "
+                   "not ranked.\nErrors are of the indirect image unless said otherwise, "
+                   "against bounce 1 with exact visibility.\n",
+                   best,
+                   data->has_intervals
+                       ? "= not distinguishable from it (the 95 % interval of their "
+                         "paired ratio contains 1); "
+                       : "");
     irb_table_foot_seeds(data, data->has_spread, out);
 }

@@ -31,8 +31,10 @@ struct irb_table_group {
     bool any_below;           /* a value that is not ranked is shown */
 };
 
-enum irb_mark { IRB_MARK_NONE, IRB_MARK_BEST, IRB_MARK_BELOW_FLOOR };
+enum irb_mark { IRB_MARK_NONE, IRB_MARK_BEST, IRB_MARK_BELOW_FLOOR, IRB_MARK_SAME };
 
+/* Finds all rows that are not distinguishable from the best of their column and scene. */
+void irb_table_find_same(struct irb_table_data *data);
 /* The group that begins at row `first`. */
 struct irb_table_group irb_table_group_at(const struct irb_table_data *data, int first);
 enum irb_mark irb_table_mark(const struct irb_table_group *group, const struct irb_column *column,

@@ -149,7 +149,7 @@ for format in text md latex json; do
     check "statistics as $format" "$IRBENCH" table "$work/debug" --statistics --format $format
 done
 expect 2 "format: frames are printed as csv or json, not as md" "$IRBENCH" table "$work/debug" --frames --format md
-expect 2 "--stages, --statistics and --frames are three tables" "$IRBENCH" table "$work/debug" --frames --stages
+expect 2 "--stages, --statistics, --frames and --ratio are four tables" "$IRBENCH" table "$work/debug" --frames --stages
 
 # more than there is room for: one line that names the method, be it statistics or layers
 few() { # few EXTRA
