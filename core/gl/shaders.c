@@ -62,7 +62,7 @@ static int compare_paths(const void *a, const void *b)
 char **irb_shader_list(const char *shader_dir, size_t *count)
 {
     struct list list = {0};
-    for (size_t i = 0; i < irb_embedded_shader_count; i++)
+    for (size_t i = 0; i < irb_embedded_shaders_count; i++)
         list_add(&list, irb_embedded_shaders[i].path);
     if (shader_dir)
         list_add_folder(&list, shader_dir);
@@ -90,7 +90,7 @@ void irb_shader_list_free(char **paths)
 
 static const char *find_embedded(const char *path)
 {
-    for (size_t i = 0; i < irb_embedded_shader_count; i++)
+    for (size_t i = 0; i < irb_embedded_shaders_count; i++)
         if (strcmp(irb_embedded_shaders[i].path, path) == 0)
             return irb_embedded_shaders[i].text;
     return NULL;
