@@ -32,7 +32,7 @@ do for [m=1:methods] {
         }
     }
 }
-note = "In brackets the parameter. Bars: intervals of the means."
+note = "In brackets the parameter. Bars: 95 % intervals."
 if (sum [i=1:rows] (row_scene[i] && X[i] <= 0)) { note = note . zero_note }
 panel_width = scenes > 1 ? 390 : 620
 panel_height = scenes > 1 ? 330 : 420

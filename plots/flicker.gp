@@ -26,7 +26,7 @@ do for [m=1:methods] {
     do for [i=1:items] { if (item_method[i] == m) { key_item[m] = i } }
 }
 note = "Flicker is relative to the mean of the reference. " . \
-    "Dashed: what the reference's own noise makes. Bars: intervals. " . \
+    "Dashed: what the reference's own noise makes. Bars: 95 % intervals. " . \
     "Pops: pixels whose error jumps by more than 10 % from one frame to the next."
 if (sum [i=1:rows] (row_scene[i] && X[i] == 0)) { note = note . zero_note }
 load folder . "rows.gp"

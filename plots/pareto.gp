@@ -65,7 +65,7 @@ do for [m=1:methods] {
     }
 }
 note = "Filled: no other trial of the method is better in both. Outlined, and grey stairs: " . \
-    "no trial of any method is. Bars: intervals of the means."
+    "no trial of any method is. Bars: 95 % intervals."
 if (sum [i=1:rows] (drawn(i) && (X[i] == 0 || Y[i] == 0))) { note = note . zero_note }
 panel_width = scenes > 1 ? 390 : 620
 panel_height = scenes > 1 ? 350 : 440

@@ -33,10 +33,11 @@ struct irb_cli {
     char *seed; /* owned: the override that --seed became */
     struct irb_cli_bound bounds[IRB_CLI_MAX_ARGUMENTS];
     int bound_count;
-    const char *layer;      /* --layer */
-    const char *out;        /* --out, NULL = default */
-    const char *shader_dir; /* --shader-dir */
-    const char *format;     /* --format, NULL = text */
+    const char *layer;                        /* --layer */
+    const char *kind, *scene, *metric, *cost; /* --kind, ...: of plot; NULL = default */
+    const char *out;                          /* --out, NULL = default */
+    const char *shader_dir;                   /* --shader-dir */
+    const char *format;                       /* --format, NULL = text */
     enum irb_backend backend;
     int threads;     /* --threads, 0 = all cores */
     unsigned stages; /* --stage, all by default */
@@ -62,6 +63,7 @@ bool irb_command_list(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_show(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_docs(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_plot(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_compare(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_export_scene(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err);

@@ -34,6 +34,21 @@ const struct irb_command irb_commands[] = {
      "  irbench table results/runs/quick-1a2b3c4d --frames > frames.csv\n"
      "  irbench table results/runs/quick-1a2b3c4d --figure pareto > pareto.csv\n",
      irb_command_table},
+    {"plot", "RUN", 1, 1, "draw a figure of a run: --kind KIND, as SVG, PNG or PDF",
+     "\nWith gnuplot. Methods have the same colours and symbols in all figures; a panel a scene.\n"
+     "  pareto       error against frame time or memory, with intervals and fronts\n"
+     "  stages       where the time of a frame goes\n"
+     "  timeline     a metric over the frames: of each method its best trial, or those of --only\n"
+     "  convergence  error over the number that a family of trials differs in\n"
+     "  flicker      flicker and pops of each trial, with the reference's own\n"
+     "Without --out the file lies in the run folder. The scripts are in plots/, and draw what\n"
+     "they are given by hand as well.\n\n"
+     "  irbench plot results/runs/quick-1a2b3c4d --kind pareto\n"
+     "  irbench plot results/runs/quick-1a2b3c4d --kind pareto --metric indirect_rmse --cost "
+     "bytes\n"
+     "  irbench plot results/runs/quick-1a2b3c4d --kind stages --scene cornell --out stages.pdf\n"
+     "  irbench plot results/runs/quick-1a2b3c4d --kind timeline --only rsm --only ism:vpls=256\n",
+     irb_command_plot},
     {"reference", "CONFIG", 1, 1, "trace the references of an experiment into the cache",
      "\nThe cache is $IRBENCH_CACHE, else ~/.cache/irbench. Resumable.\n\n"
      "  irbench reference experiments/quick.yaml\n"

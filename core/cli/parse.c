@@ -142,6 +142,34 @@ static bool set_layer(struct irb_cli *cli, const char *value, struct irb_error *
     return true;
 }
 
+static bool set_kind(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->kind = value;
+    return true;
+}
+
+static bool set_scene(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->scene = value;
+    return true;
+}
+
+static bool set_metric(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->metric = value;
+    return true;
+}
+
+static bool set_cost(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    (void)err;
+    cli->cost = value;
+    return true;
+}
+
 static bool set_shader_dir(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)err;
@@ -231,12 +259,14 @@ static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *e
 }
 
 const struct irb_cli_option irb_cli_options[] = {
-    {"--out", "-o", "DIR", "run folder (default results/runs/NAME-KEY); folder of compare's maps",
+    {"--out", "-o", "DIR",
+     "run folder (default results/runs/NAME-KEY); folder of compare's maps; file of a plot",
      set_out},
     {"--set", NULL, "KEY=VALUE", "override a config value: frames=4, reference.noise=0.02",
      set_override},
     {"--seed", NULL, "N", "run with this seed instead of the config's", set_seed},
-    {"--only", NULL, "TRIAL", "run only this trial (may be repeated)", set_only},
+    {"--only", NULL, "TRIAL", "run only this trial, or show it in a timeline (may be repeated)",
+     set_only},
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
     {"--minutes", NULL, "N",
      "run: begin no new round (a pass with one seed) after N minutes but each scene's first",
@@ -249,7 +279,9 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--shader-dir", NULL, "DIR", "read shaders from here instead of the binary", set_shader_dir},
     {"--module", NULL, "FILE.so", "load a method from a shared object", set_module},
     {"--threads", NULL, "N", "threads of reference and scoring (default: all cores)", set_threads},
-    {"--format", NULL, "FORMAT", "of tables: text (default), csv, md, json or latex", set_format},
+    {"--format", NULL, "FORMAT",
+     "of tables: text (default), csv, md, json or latex; of plots: svg (default), png or pdf",
+     set_format},
     {"--per-seed", NULL, NULL, "tables: a row for each seed instead of means over the seeds",
      set_per_seed},
     {"--stages", NULL, NULL, "tables: the median time of every stage instead of the scores",
@@ -267,6 +299,11 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},
+    {"--kind", NULL, "KIND", "plot: pareto, stages, timeline, convergence or flicker", set_kind},
+    {"--scene", NULL, "NAME", "plot: this scene alone (default: a panel for each)", set_scene},
+    {"--metric", NULL, "NAME",
+     "plot: indirect_flip, indirect_rmse, indirect_relmse or indirect_flicker", set_metric},
+    {"--cost", NULL, "COST", "plot: pareto's cost, ms (default) or bytes", set_cost},
     {"--key", NULL, NULL, "reference: print the cache key of every frame and stop", set_key},
     {"--verbose", "-v", NULL, "say more", set_verbose},
     {"--json", NULL, NULL, "progress and messages on stderr as JSON lines, for programs", set_json},
