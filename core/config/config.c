@@ -144,8 +144,8 @@ static bool read_reference(struct irb_config *config, struct irb_yaml *yaml, irb
 static bool read_settings(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node root,
                           struct irb_error *err)
 {
-    static const char *const elsewhere[] = {"scenes",    "scene",   "camera",  "light",
-                                            "animation", "objects", "regions", "trials"};
+    static const char *const elsewhere[] = {"scenes",  "scene",   "camera",  "light", "animation",
+                                            "objects", "regions", "profile", "trials"};
     irb_yaml_node resolution = irb_yaml_find(yaml, root, "resolution");
     for (int i = 0; i < irb_yaml_pairs(root); i++) {
         irb_yaml_node value = irb_yaml_value(yaml, root, i);
@@ -193,8 +193,8 @@ static bool override_one(struct irb_config *config, const char *key, const char 
                          struct irb_error *err)
 {
     static const char reference[] = "reference.";
-    static const char *const fixed[] = {"scenes",  "scene",   "camera", "light",    "animation",
-                                        "objects", "regions", "trials", "reference"};
+    static const char *const fixed[] = {"scenes",  "scene",   "camera",  "light",  "animation",
+                                        "objects", "regions", "profile", "trials", "reference"};
     if (!strncmp(key, reference, sizeof reference - 1))
         return irb_option_set(irb_reference_options, &config->reference, key + sizeof reference - 1,
                               value, err) ||
@@ -260,7 +260,8 @@ static bool check_together(const struct irb_config *config, struct irb_error *er
         return irb_fail(err, IRB_E_INPUT,
                         "%s: expected at most %d trials, each seed counted, found %d with %d seeds",
                         config->path, IRB_MOST_TRIALS, config->trial_count, config->seed_count);
-    return irb_config_check_trials(config, err) && irb_config_check_regions(config, err);
+    return irb_config_check_trials(config, err) && irb_config_check_regions(config, err) &&
+           irb_config_check_profiles(config, err);
 }
 
 bool irb_config_load(struct irb_config *config, const char *path, const char *const *overrides,
@@ -293,6 +294,7 @@ void irb_config_destroy(struct irb_config *config)
         free(config->scenes[i].light_place);
         free(config->scenes[i].camera_name);
         free(config->scenes[i].camera_place);
+        free(config->scenes[i].profile_place);
         irb_animation_destroy(&config->scenes[i].animation);
         irb_poses_destroy(&config->scenes[i].poses);
         irb_config_destroy_regions(&config->scenes[i]);

@@ -61,6 +61,9 @@ struct irb_scene_entry {
     struct irb_poses poses;           /* how objects move */
     struct irb_region *regions;       /* owned */
     int region_count;
+    float profile; /* row of the profiles: pixels, or a fraction of the height between 0 and 1;
+                      negative: none is named */
+    char *profile_place; /* "FILE:LINE:COLUMN", for messages; NULL where none is named */
 };
 
 /* A parameter whose value changes over the sequence. Before its first key it has the first key's
@@ -153,6 +156,10 @@ unsigned irb_trial_needs(const struct irb_trial *trial, int frames); /* enum irb
 /* The region in pixels of a width x height image: x0, y0, x1, y1, the last two exclusive. Fractions
  * are rounded to the nearest pixel edge. False where no pixel is in it or it leaves the image. */
 bool irb_region_pixels(const struct irb_region *region, int width, int height, int box[4]);
+
+/* The row of the scene's profiles in an image `height` pixels high; false where the config names
+ * none, or none that is inside. */
+bool irb_profile_row(const struct irb_scene_entry *entry, int height, int *row);
 
 /* Hash of all that can change a result of the run. */
 struct irb_key irb_config_key(const struct irb_config *config);

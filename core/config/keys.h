@@ -27,6 +27,7 @@
     X("animation", "map", "of the only scene")                                                     \
     X("objects", "list of maps", "of the only scene")                                              \
     X("regions", "list of maps", "of the only scene")                                              \
+    X("profile", "number", "of the only scene")                                                    \
     X("trials", "list", "methods with their parameters")
 
 #define IRB_CONFIG_SCENE_KEYS(X)                                                                   \
@@ -42,7 +43,10 @@
       "plays the scene's own animation: a glTF file's first one (transforms, morph weights, "      \
       "joints), or that of a built-in scene that has one")                                         \
     X("objects", "list of maps", "moves objects of the scene")                                     \
-    X("regions", "list of maps", "boxes of the image that are scored on their own")
+    X("regions", "list of maps", "boxes of the image that are scored on their own")                \
+    X("profile", "row, or fraction of the height",                                                 \
+      "row of the image that the profiles show over the sequence; by default the one where the "   \
+      "reference changes most")
 
 #define IRB_CONFIG_REGION_KEYS(X)                                                                  \
     X("name", "text", "what tables call it")                                                       \

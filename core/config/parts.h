@@ -41,6 +41,11 @@ bool irb_config_check_regions(const struct irb_config *config, struct irb_error 
 void irb_config_hash_regions(const struct irb_scene_entry *entry, struct irb_hash *hash);
 void irb_config_destroy_regions(struct irb_scene_entry *entry);
 
+/* `profile:` of `scene` (profile.c). The row is checked against the resolution later too. */
+bool irb_config_read_profile(struct irb_scene_entry *entry, struct irb_yaml *yaml,
+                             irb_yaml_node scene, struct irb_error *err);
+bool irb_config_check_profiles(const struct irb_config *config, struct irb_error *err);
+
 /* `seed:`, `seeds:` and `repeats:` (seeds.c): where nothing is said; the file's node; the texts of
  * --set; and what the seeds after the first add to the config's key. */
 void irb_config_usual_seeds(struct irb_config *config);

@@ -165,8 +165,7 @@ static bool read_name(struct irb_config *config, struct irb_scene_entry *entry,
     return true;
 }
 
-/* `node` holds the keys scene, camera, light, animation, objects and regions; `name` may be NULL.
- */
+/* `node` holds the keys of a scene but its name; `name` may be NULL. */
 static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node node,
                        irb_yaml_node name, struct irb_error *err)
 {
@@ -185,7 +184,8 @@ static bool read_entry(struct irb_config *config, struct irb_yaml *yaml, irb_yam
         builtin->view(&entry->animation);
     return irb_config_read_script(entry, yaml, node, builtin != NULL, err) &&
            irb_config_read_poses(entry, yaml, node, builtin && !builtin->animated, err) &&
-           irb_config_read_regions(entry, yaml, node, err);
+           irb_config_read_regions(entry, yaml, node, err) &&
+           irb_config_read_profile(entry, yaml, node, err);
 }
 
 static bool read_list(struct irb_config *config, struct irb_yaml *yaml, irb_yaml_node list,
@@ -203,8 +203,8 @@ static bool read_list(struct irb_config *config, struct irb_yaml *yaml, irb_yaml
 
 bool irb_config_read_scenes(struct irb_config *config, struct irb_yaml *yaml, struct irb_error *err)
 {
-    static const char *const single_keys[] = {"scene",     "camera",  "light",
-                                              "animation", "objects", "regions"};
+    static const char *const single_keys[] = {"scene",   "camera",  "light",  "animation",
+                                              "objects", "regions", "profile"};
     irb_yaml_node root = irb_yaml_root(yaml);
     irb_yaml_node list = irb_yaml_find(yaml, root, "scenes");
     if (!list && !irb_yaml_find(yaml, root, "scene"))

@@ -4,6 +4,9 @@
 #include "core/base/parallel.h"
 #include "core/experiment/frame_file.h"
 #include "core/experiment/paths.h"
+#include "core/experiment/score_temporal.h"
+#include "core/experiment/target_pair.h"
+#include "core/experiment/temporal_maps.h"
 #include "core/score/sheet.h"
 #include "core/image/exr.h"
 #include "core/image/imageio.h"
@@ -16,6 +19,7 @@
 /* Error maps of one kept frame. */
 struct maps {
     struct irb_image relmse, flip_indirect, flip_full;
+    struct irb_image residual, temporal_flip; /* of the indirect image; 0 in the first frame */
 };
 
 static void destroy_maps(struct maps *maps)
@@ -23,6 +27,8 @@ static void destroy_maps(struct maps *maps)
     irb_image_destroy(&maps->relmse);
     irb_image_destroy(&maps->flip_indirect);
     irb_image_destroy(&maps->flip_full);
+    irb_image_destroy(&maps->residual);
+    irb_image_destroy(&maps->temporal_flip);
 }
 
 /* Zero where the sequence is black and FLIP is not defined. */
@@ -48,12 +54,42 @@ static bool make_maps(struct maps *maps, const struct irb_scored_frame *frame,
            flip_map(&full, target->flip_full, &maps->flip_full, err);
 }
 
+/* The maps between this frame and the one before it; `previous` is NULL where there is none, or
+ * none any more. */
+static bool make_temporal_maps(struct maps *maps, const struct irb_scored_frame *frame,
+                               const struct irb_scored_frame *previous,
+                               const struct irb_target_pair *targets,
+                               const struct irb_target_constants *constants, struct irb_error *err)
+{
+    int width = frame->indirect.width, height = frame->indirect.height;
+    const struct irb_target *target = &targets->target, *before = &targets->previous;
+    struct irb_pair now = {&frame->indirect, &target->indirect, target->mask};
+    struct irb_warped_pair warped = {0};
+    struct irb_temporal_flip flip = {0};
+    struct irb_target_view view = {0};
+    if (!previous)
+        return irb_image_create(&maps->residual, width, height, 1, err) &&
+               irb_image_create(&maps->temporal_flip, width, height, 1, err);
+    struct irb_pair pair = {&previous->indirect, &before->indirect, before->mask};
+    bool ok =
+        irb_warp_pair(&warped, &pair, irb_target_motion(targets), err) &&
+        irb_residual_map(&warped.pair, &now, constants->mean_indirect, &maps->residual, err) &&
+        irb_target_view_create(&view, &frame->indirect, constants->exposure, 1, err) &&
+        irb_temporal_flip(&flip, &warped.pair, &now, &view, constants->exposure, err);
+    maps->temporal_flip = flip.map; /* moved */
+    flip.map = (struct irb_image){0};
+    irb_temporal_flip_destroy(&flip);
+    irb_target_view_destroy(&view);
+    irb_warped_pair_destroy(&warped);
+    return ok;
+}
+
 static bool write_exr(const char *path, const struct irb_run *run,
                       const struct irb_scored_trial *trial, const struct irb_scored_frame *frame,
                       const struct irb_target *target, const struct maps *maps,
                       const struct irb_debug_layers *debug, struct irb_error *err)
 {
-    enum { OWN = 8, MOST = IRB_FRAME_ATTRIBUTES + IRB_MAX_DEBUG_LAYERS + 1 };
+    enum { OWN = 10, MOST = IRB_FRAME_ATTRIBUTES + IRB_MAX_DEBUG_LAYERS + 1 };
     struct irb_exr_layer layers[OWN + IRB_MAX_DEBUG_LAYERS] = {
         {"", "RGB", &frame->full},
         {"indirect", "RGB", &frame->indirect},
@@ -63,6 +99,8 @@ static bool write_exr(const char *path, const struct irb_run *run,
         {"relmse", "Y", &maps->relmse},
         {"flip_indirect", "Y", &maps->flip_indirect},
         {"flip_full", "Y", &maps->flip_full},
+        {"residual", "Y", &maps->residual},
+        {"temporal_flip", "Y", &maps->temporal_flip},
     };
     irb_debug_layer_name names[IRB_MAX_DEBUG_LAYERS];
     int count = OWN + irb_debug_layers_append(debug, layers + OWN, names);
@@ -96,10 +134,10 @@ static bool write_sheet(const char *path, const struct irb_scored_frame *frame,
     return ok;
 }
 
-/* One frame that is being kept: its target is loaded once for all trials. */
+/* One frame that is being kept: its targets are loaded once for all trials. */
 struct keep_frame {
     const struct irb_keep *keep;
-    struct irb_target target;
+    const struct irb_target_pair *targets;
     int frame;
     const int *wanted;      /* indices of the trials that keep it */
     struct irb_error *errs; /* one a trial */
@@ -111,25 +149,53 @@ static struct irb_frame_place place_of(const struct irb_keep *keep, int trial, i
                                     keep->trials[trial].trial->folder, frame};
 }
 
+static bool has_frame_file(const struct irb_keep *keep, int trial, int frame)
+{
+    const struct irb_frame_place place = place_of(keep, trial, frame);
+    char *path = irb_frame_path(&place, "frame", "exr");
+    bool there = frame >= 0 && irb_fs_exists(path);
+    free(path);
+    return there;
+}
+
+/* All maps of the trial's frame; the frame before it is read for them. */
+static bool make_all_maps(struct maps *maps, const struct keep_frame *kept, int trial,
+                          const struct irb_scored_frame *frame, struct irb_error *err)
+{
+    const struct irb_keep *keep = kept->keep;
+    struct irb_scored_frame previous = {0};
+    bool has_previous = has_frame_file(keep, trial, kept->frame - 1);
+    bool ok =
+        make_maps(maps, frame, &kept->targets->target, keep->constants, err) &&
+        (!has_previous || irb_scored_frame_load(&previous, keep->run, &keep->trials[trial],
+                                                kept->frame - 1, &kept->targets->previous, err)) &&
+        make_temporal_maps(maps, frame, has_previous ? &previous : NULL, kept->targets,
+                           keep->constants, err);
+    irb_scored_frame_destroy(&previous);
+    return ok;
+}
+
 static bool keep_one(void *user, int index, int thread)
 {
     (void)thread;
     struct keep_frame *kept = user;
     const struct irb_keep *keep = kept->keep;
-    const struct irb_scored_trial *trial = &keep->trials[kept->wanted[index]];
-    struct irb_error *err = &kept->errs[kept->wanted[index]];
+    const struct irb_target *target = &kept->targets->target;
+    int t = kept->wanted[index];
+    const struct irb_scored_trial *trial = &keep->trials[t];
+    struct irb_error *err = &kept->errs[t];
     struct irb_scored_frame frame = {0};
     struct maps maps = {0};
     struct irb_debug_layers debug = {0};
-    const struct irb_frame_place place = place_of(keep, kept->wanted[index], kept->frame);
+    const struct irb_frame_place place = place_of(keep, t, kept->frame);
     char *exr = irb_frame_path(&place, "image", "exr"),
          *png = irb_frame_path(&place, "image", "png");
-    bool ok = irb_scored_frame_load(&frame, keep->run, trial, kept->frame, &kept->target, err) &&
+    bool ok = irb_scored_frame_load(&frame, keep->run, trial, kept->frame, target, err) &&
               irb_debug_layers_load(&debug, &place, err) &&
-              make_maps(&maps, &frame, &kept->target, keep->constants, err) &&
-              write_exr(exr, keep->run, trial, &frame, &kept->target, &maps, &debug, err);
+              make_all_maps(&maps, kept, t, &frame, err) &&
+              write_exr(exr, keep->run, trial, &frame, target, &maps, &debug, err);
     if (ok && IRB_HAVE_IMAGES)
-        ok = write_sheet(png, &frame, &kept->target, &maps, keep->constants, err) &&
+        ok = write_sheet(png, &frame, target, &maps, keep->constants, err) &&
              irb_debug_layers_show(&debug, &place, keep->constants->exposure, err);
     free(png);
     free(exr);
@@ -146,37 +212,30 @@ static bool is_wanted(const struct irb_keep *keep, int trial, int frame)
            frame == keep->worst[trial] || frame == frames - 1;
 }
 
+/* Without its file, an earlier run has kept or removed it. */
 static bool is_kept(const struct irb_keep *keep, int trial, int frame)
 {
-    if (!is_wanted(keep, trial, frame))
-        return false;
-    const struct irb_frame_place place = place_of(keep, trial, frame);
-    char *path = irb_frame_path(&place, "frame", "exr");
-    bool there = irb_fs_exists(path); /* else an earlier run has kept or removed it */
-    free(path);
-    return there;
+    return is_wanted(keep, trial, frame) && has_frame_file(keep, trial, frame);
 }
 
-static bool keep_frame(const struct irb_keep *keep, int frame, int *wanted, struct irb_error *errs,
-                       struct irb_error *err)
+static bool keep_frame(const struct irb_keep *keep, int frame, struct irb_target_pair *targets,
+                       int *wanted, struct irb_error *errs, struct irb_error *err)
 {
-    struct keep_frame kept = {.keep = keep, .frame = frame, .wanted = wanted, .errs = errs};
-    int count = 0;
+    struct keep_frame kept = {
+        .keep = keep, .targets = targets, .frame = frame, .wanted = wanted, .errs = errs};
+    int count = 0, threads = keep->run->options->threads;
     for (int t = 0; t < keep->trial_count; t++)
         if (is_kept(keep, t, frame))
             wanted[count++] = t;
     if (!count)
         return true;
-    if (!irb_target_load(&kept.target, keep->run, keep->sequence, frame, keep->constants, err))
+    if (!irb_target_pair_load(targets, keep->run, keep->sequence, keep->constants, frame, err) ||
+        !irb_target_prepare(&targets->target, keep->sequence->entry, keep->constants, threads, err))
         return false;
-    int threads = keep->run->options->threads;
-    bool ok =
-        irb_target_prepare(&kept.target, keep->sequence->entry, keep->constants, threads, err) &&
-        irb_parallel_for(count, threads, keep_one, &kept);
+    bool ok = irb_parallel_for(count, threads, keep_one, &kept);
     for (int t = 0; !ok && t < keep->trial_count; t++)
         if (errs[t].code != IRB_E_OK && err)
             *err = errs[t];
-    irb_target_destroy(&kept.target);
     return ok;
 }
 
@@ -192,25 +251,34 @@ static void remove_frame(const struct irb_keep *keep, int frame)
     }
 }
 
-bool irb_keep_images(const struct irb_keep *keep, struct irb_error *err)
+static bool keep_frames(const struct irb_keep *keep, struct irb_error *err)
 {
     int *wanted = calloc((size_t)keep->trial_count, sizeof *wanted);
     struct irb_error *errs = calloc((size_t)keep->trial_count, sizeof *errs);
+    struct irb_target_pair targets = IRB_TARGET_PAIR_NONE;
     bool ok = wanted && errs;
     if (!ok)
         irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", keep->trial_count);
-    for (int i = 0; ok && i < keep->sequence->frame_count; i++) {
-        ok = !irb_run_stopped(keep->run, err) && keep_frame(keep, i, wanted, errs, err);
-        if (ok)
-            remove_frame(keep, i);
-    }
-    for (int i = 0; ok && i < keep->sequence->frame_count; i++) {
+    for (int i = 0; ok && i < keep->sequence->frame_count; i++)
+        ok = !irb_run_stopped(keep->run, err) && keep_frame(keep, i, &targets, wanted, errs, err);
+    irb_target_pair_destroy(&targets);
+    free(wanted);
+    free(errs);
+    return ok;
+}
+
+bool irb_keep_images(const struct irb_keep *keep, struct irb_error *err)
+{
+    if (!irb_temporal_maps_write(keep, err) || !keep_frames(keep, err))
+        return false;
+    /* The last one first: a frame that is there still has all before it, for its maps. */
+    for (int i = keep->sequence->frame_count - 1; i >= 0; i--)
+        remove_frame(keep, i);
+    for (int i = 0; i < keep->sequence->frame_count; i++) {
         char *path =
             irb_run_file(keep->run->dir, keep->sequence->entry->name, NULL, "direct", i, "exr");
         unlink(path);
         free(path);
     }
-    free(wanted);
-    free(errs);
-    return ok;
+    return true;
 }

@@ -11,15 +11,16 @@
 
 struct irb_keep {
     struct irb_run *run;
-    const struct irb_sequence *sequence;
+    struct irb_sequence *sequence; /* changes its pose */
     const struct irb_target_constants *constants;
     const struct irb_scored_trial *trials; /* trial_count of them */
     const int *worst;                      /* each trial's worst frame */
     int trial_count;
 };
 
-/* Writes the kept frames of all trials, and removes the frame files and direct light that nobody
- * needs any more. What an earlier run has kept or removed stays as it is. */
+/* Writes the pictures of the sequence (temporal_maps.h) and the kept frames of all trials, and
+ * then removes the frame files and direct light that nobody needs any more. What an earlier run has
+ * kept or removed stays as it is. */
 bool irb_keep_images(const struct irb_keep *keep, struct irb_error *err);
 
 #endif

@@ -13,6 +13,8 @@
  *     RUN/SCENE/TRIAL/image-0000.exr|png  a kept frame: result, reference, maps
  *     RUN/SCENE/TRIAL/debug-NAME-0000.png a debug layer of a kept frame
  *     RUN/SCENE/TRIAL/debug-NAME-0000.exr the same where it has not the image's size
+ *     RUN/SCENE/TRIAL/profile.exr|png     a row of the image over the sequence, see temporal_maps.h
+ *     RUN/SCENE/TRIAL/flicker.exr|png     temporal residual over the sequence
  *     RUN/SCENE/film/STEM-0000.jpg        small pictures of every frame, see film.h
  *     RUN/SCENE/TRIAL/film/STEM-0000.jpg  the same of a trial
  *

@@ -4,7 +4,7 @@
 #include "core/experiment/paths.h"
 #include "core/experiment/score_temporal.h"
 #include "core/frame/composite.h"
-#include "core/score/metrics.h"
+#include "core/score/flicker.h"
 #include "core/score/ssim.h"
 
 #include <math.h>

@@ -262,6 +262,7 @@ bool irb_target_constants_store(const struct irb_target_constants *constants, st
         {"psnr_peak_indirect", constants->peak_indirect},
         {"psnr_peak_full", constants->peak_full},
         {"preview_exposure", constants->exposure},
+        {"profile_row", constants->profile_row},
         {"film_v0_indirect", constants->film_indirect.v0},
         {"film_vmax_indirect", constants->film_indirect.vmax},
         {"film_v0_direct", constants->film_full.v0},

@@ -10,6 +10,7 @@
 #include "core/experiment/keep.h"
 #include "core/experiment/score_frame.h"
 #include "core/experiment/score_stage.h"
+#include "core/experiment/target_pair.h"
 #include "core/experiment/paths.h"
 #include "core/score/metrics.h"
 
@@ -29,9 +30,7 @@ struct scoring {
     struct irb_run *run;
     struct irb_sequence *sequence;
     struct irb_target_constants constants;
-    struct irb_target target, previous_target;
-    struct irb_reprojection motion; /* source NULL while the view rests */
-    int previous_frame;             /* of previous_target; -1 = none */
+    struct irb_target_pair targets; /* of this frame and the one before it */
     int frame;
     struct trial_scores *trials;
     int trial_count;
@@ -67,16 +66,17 @@ static bool score_trial(void *user, int index, int thread)
     if (frame > 0 && trial->previous.frame != frame - 1) {
         irb_scored_frame_destroy(&trial->previous);
         if (!irb_scored_frame_load(&trial->previous, s->run, &trial->trial, frame - 1,
-                                   &s->previous_target, &trial->err))
+                                   &s->targets.previous, &trial->err))
             return false;
     }
-    if (!irb_scored_frame_load(&current, s->run, &trial->trial, frame, &s->target, &trial->err))
+    if (!irb_scored_frame_load(&current, s->run, &trial->trial, frame, &s->targets.target,
+                               &trial->err))
         return false;
     struct irb_score_context context = {
         .constants = &s->constants,
-        .target = &s->target,
-        .previous_target = frame > 0 ? &s->previous_target : NULL,
-        .motion = s->motion.source ? &s->motion : NULL,
+        .target = &s->targets.target,
+        .previous_target = frame > 0 ? &s->targets.previous : NULL,
+        .motion = irb_target_motion(&s->targets),
         .settings = s->run->config,
     };
     bool ok = score_and_film(s, trial, &context, &current);
@@ -84,35 +84,6 @@ static bool score_trial(void *user, int index, int thread)
     irb_scored_frame_destroy(&trial->previous);
     trial->previous = current;
     return ok;
-}
-
-/* How the previous frame's surfaces moved into this one's. */
-static bool find_motion(struct scoring *s, struct irb_error *err)
-{
-    struct irb_moved_object *moved = NULL;
-    int count = 0;
-    if (!irb_sequence_moved(s->sequence, s->frame, &moved, &count, err))
-        return false;
-    bool ok = irb_reproject(&s->motion, &s->target.gbuffer, &s->previous_target.gbuffer,
-                            &s->sequence->frames[s->frame - 1].camera, moved, count, err);
-    free(moved);
-    return ok;
-}
-
-/* Target of this frame and of the one before it, and how one moved into the other. */
-static bool load_targets(struct scoring *s, struct irb_error *err)
-{
-    irb_reprojection_destroy(&s->motion);
-    if (s->frame > 0 && s->previous_frame != s->frame - 1) {
-        irb_target_destroy(&s->previous_target);
-        if (!irb_target_load(&s->previous_target, s->run, s->sequence, s->frame - 1, &s->constants,
-                             err))
-            return false;
-        s->previous_frame = s->frame - 1;
-    }
-    if (!irb_target_load(&s->target, s->run, s->sequence, s->frame, &s->constants, err))
-        return false;
-    return s->frame == 0 || irb_sequence_same_view(s->sequence, s->frame) || find_motion(s, err);
 }
 
 static bool store_fresh(struct scoring *s, struct irb_error *err)
@@ -144,17 +115,19 @@ static bool prepare_target(struct scoring *s, struct irb_error *err)
 {
     int threads = s->run->options->threads;
     bool middle = s->frame == s->sequence->frame_count / 2;
-    return irb_target_prepare(&s->target, s->sequence->entry, &s->constants, threads, err) &&
-           (!middle || irb_target_prepare_noisy(&s->target, &s->constants, threads, err));
+    return irb_target_prepare(&s->targets.target, s->sequence->entry, &s->constants, threads,
+                              err) &&
+           (!middle || irb_target_prepare_noisy(&s->targets.target, &s->constants, threads, err));
 }
 
 static bool score_one_frame(struct scoring *s, struct irb_error *err)
 {
-    if (!load_targets(s, err) || !prepare_target(s, err))
+    if (!irb_target_pair_load(&s->targets, s->run, s->sequence, &s->constants, s->frame, err) ||
+        !prepare_target(s, err))
         return false;
     if (irb_film_wanted(s->run->config) &&
-        !irb_film_target(s->run->dir, s->sequence->entry->name, s->frame, &s->target, &s->constants,
-                         err))
+        !irb_film_target(s->run->dir, s->sequence->entry->name, s->frame, &s->targets.target,
+                         &s->constants, err))
         return false;
     if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
         for (int t = 0; t < s->trial_count; t++)
@@ -162,11 +135,6 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
                 *err = s->trials[t].err;
         return false;
     }
-    irb_target_unprepare(&s->target);
-    irb_target_destroy(&s->previous_target);
-    s->previous_target = s->target;
-    s->target = (struct irb_target){0};
-    s->previous_frame = s->frame;
     return store_fresh(s, err);
 }
 
@@ -237,9 +205,7 @@ static void close_scoring(struct scoring *s)
         free(s->trials[t].fresh);
     }
     free(s->trials);
-    irb_reprojection_destroy(&s->motion);
-    irb_target_destroy(&s->target);
-    irb_target_destroy(&s->previous_target);
+    irb_target_pair_destroy(&s->targets);
     irb_target_constants_destroy(&s->constants);
 }
 
@@ -295,7 +261,7 @@ static bool anything_to_do(const struct scoring *s)
 
 bool irb_score_sequence(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err)
 {
-    struct scoring s = {.run = run, .sequence = sequence, .previous_frame = -1};
+    struct scoring s = {.run = run, .sequence = sequence, .targets = IRB_TARGET_PAIR_NONE};
     irb_run_work(run, IRB_WORK_SCORE);
     bool ok = open_trials(&s, err);
     if (ok && anything_to_do(&s)) {

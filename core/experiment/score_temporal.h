@@ -7,7 +7,7 @@
 #define IRB_EXPERIMENT_SCORE_TEMPORAL_H
 
 #include "core/experiment/target.h"
-#include "core/score/metrics.h"
+#include "core/score/flicker.h"
 #include "core/score/reproject.h"
 
 /* The previous frame's pair, brought to this frame's pixels where camera or objects moved. */

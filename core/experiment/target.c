@@ -7,6 +7,7 @@
 #include "core/image/exr.h"
 #include "core/score/metrics.h"
 #include "core/score/noise.h"
+#include "core/score/profile.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -306,6 +307,23 @@ static bool collect_frames(struct sequence_images *images, struct irb_target_con
     return true;
 }
 
+/* The row that the config names, else the one where the reference changes most. */
+static bool set_profile_row(struct irb_target_constants *c, const struct sequence_images *images,
+                            const struct irb_scene_entry *entry, struct irb_error *err)
+{
+    int height = images->indirect->height;
+    if (irb_profile_row(entry, height, &c->profile_row))
+        return true;
+    double *rows = calloc((size_t)height, sizeof *rows);
+    if (!rows)
+        return irb_fail(err, IRB_E_MEMORY, "no memory for %d rows", height);
+    for (int i = 1; i < images->count; i++)
+        irb_row_change_add(rows, &images->indirect[i - 1], &images->indirect[i]);
+    c->profile_row = irb_busiest_row(rows, height);
+    free(rows);
+    return true;
+}
+
 /* Keeps what the lag is taken from: nothing where camera or objects move, or the sequence is short.
  */
 static bool set_lag(struct irb_target_constants *c, const struct sequence_images *images,
@@ -353,7 +371,8 @@ bool irb_target_constants_of(struct irb_target_constants *constants, const struc
         constants->full_lit =
             scales_of(images.full, images.masks, images.count, constants->mean_full,
                       &constants->flip_full, &constants->peak_full, &constants->film_full);
-        ok = set_lag(constants, &images, err);
+        ok = set_profile_row(constants, &images, sequence->entry, err) &&
+             set_lag(constants, &images, err);
     }
     for (int i = 0; i < images.count; i++) {
         irb_image_destroy(&images.indirect[i]);

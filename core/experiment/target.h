@@ -55,7 +55,8 @@ struct irb_target_constants {
     double peak_indirect, peak_full; /* of PSNR: 99.9th percentile of the sequence's values */
     struct irb_film_scale film_indirect, film_full; /* of the run's films */
     double exposure;                                /* of previews, SSIM and LDR-FLIP */
-    bool view_rests;                                /* neither camera nor objects move */
+    int profile_row;               /* of the sequence's pictures: see temporal_maps.h */
+    bool view_rests;               /* neither camera nor objects move */
     struct irb_lag_reference *lag; /* the indirect images, NULL where no lag is scored; owned */
     double noise;                  /* reached, largest of the frames: see irb_reference_image */
 };

@@ -19,11 +19,15 @@ static bool finite3(const float *v)
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-/* Whether the pixel counts: finite in both images. */
 static bool pair_finite(const struct irb_pair *pair, size_t pixel)
 {
     return finite3(pair->test->data + CHANNELS * pixel) &&
            finite3(pair->reference->data + CHANNELS * pixel);
+}
+
+bool irb_pair_counts(const struct irb_pair *pair, size_t pixel)
+{
+    return !masked(pair->mask, pixel) && pair_finite(pair, pixel);
 }
 
 struct irb_error_scores irb_score_errors(const struct irb_pair *pair, double eps)
@@ -129,70 +133,6 @@ bool irb_relmse_map(const struct irb_pair *pair, double eps, struct irb_image *m
         }
         map->data[i] = pair_finite(pair, i) ? (float)(sum / CHANNELS) : NAN;
     }
-    return true;
-}
-
-/* |e_t - e_(t-1)|^2, mean over channels. */
-static double residual_change(const struct irb_pair *previous, const struct irb_pair *current,
-                              size_t pixel)
-{
-    double sum = 0;
-    for (size_t i = CHANNELS * pixel; i < CHANNELS * (pixel + 1); i++) {
-        double now = (double)current->test->data[i] - current->reference->data[i];
-        double before = (double)previous->test->data[i] - previous->reference->data[i];
-        sum += (now - before) * (now - before);
-    }
-    return sum / CHANNELS;
-}
-
-static double magnitude(const float *rgb)
-{
-    double sum = 0;
-    for (int c = 0; c < CHANNELS; c++)
-        sum += (double)rgb[c] * rgb[c];
-    return sqrt(sum / CHANNELS);
-}
-
-static bool counts_in_both(const struct irb_pair *previous, const struct irb_pair *current,
-                           size_t pixel)
-{
-    return !masked(previous->mask, pixel) && !masked(current->mask, pixel) &&
-           pair_finite(previous, pixel) && pair_finite(current, pixel);
-}
-
-struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
-                                            const struct irb_pair *current, double mean_reference)
-{
-    const double pop_threshold = 0.1, dark_share = 0.1; /* of the definition in the header */
-    double sum = 0;
-    long count = 0, pops = 0;
-    size_t pixels = irb_image_pixels(current->test);
-    for (size_t i = 0; i < pixels; i++) {
-        if (!counts_in_both(previous, current, i))
-            continue;
-        double change = residual_change(previous, current, i);
-        double level = magnitude(current->reference->data + CHANNELS * i);
-        level = fmax(level, dark_share * mean_reference);
-        sum += change;
-        pops += sqrt(change) > pop_threshold * level;
-        count++;
-    }
-    double residual = sqrt(sum / (double)count);
-    return (struct irb_flicker_scores){
-        .flicker = residual == 0 ? 0 : residual / mean_reference,
-        .pop_share = (double)pops / (double)count,
-    };
-}
-
-bool irb_residual_map(const struct irb_pair *previous, const struct irb_pair *current,
-                      double mean_reference, struct irb_image *map, struct irb_error *err)
-{
-    if (!irb_image_create(map, current->test->width, current->test->height, 1, err))
-        return false;
-    for (size_t i = 0; mean_reference > 0 && i < irb_image_pixels(map); i++)
-        if (counts_in_both(previous, current, i))
-            map->data[i] =
-                (float)fmin(sqrt(residual_change(previous, current, i)) / mean_reference, FLT_MAX);
     return true;
 }
 

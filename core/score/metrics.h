@@ -19,6 +19,9 @@ struct irb_pair {
     const uint8_t *mask;
 };
 
+/* Whether the pixel counts. */
+bool irb_pair_counts(const struct irb_pair *pair, size_t pixel);
+
 struct irb_error_scores {
     double rmse;         /* sqrt(mean (v-r)^2) over pixels and channels; units of the image */
     double relmse;       /* mean (v-r)^2/(r^2 + eps); no unit */
@@ -60,24 +63,6 @@ double irb_masked_mean(const struct irb_image *image, const uint8_t *mask);
  * 0, NaN where a pixel is not finite. */
 bool irb_relmse_map(const struct irb_pair *pair, double eps, struct irb_image *map,
                     struct irb_error *err);
-
-/* ---- Flicker: the temporal residual against the reference's own change ----
- * e_t = I_t - R_t; over pixels with geometry in both frames. */
-struct irb_flicker_scores {
-    double flicker;   /* sqrt(mean |e_t - e_(t-1)|^2) / mean R_t; identical inputs give exactly 0 */
-    double pop_share; /* share of pixels with |e_t - e_(t-1)| > 0.1 max(R_t, 0.1 mean R) */
-};
-
-/* previous and current: the pairs of frames t-1 and t; static camera. mean_reference is the
- * sequence's, in the images' unit. Magnitudes are of luminance-free RGB vectors: |e|^2 = mean over
- * channels, R_t likewise. A mean reference of 0 gives flicker 0 for no residual, else infinity. */
-struct irb_flicker_scores irb_score_flicker(const struct irb_pair *previous,
-                                            const struct irb_pair *current, double mean_reference);
-
-/* |e_t - e_(t-1)| / mean R of each pixel; 1 channel, created. 0 where a mask is 0, a pixel is not
- * finite, or the mean reference is 0; at most FLT_MAX. */
-bool irb_residual_map(const struct irb_pair *previous, const struct irb_pair *current,
-                      double mean_reference, struct irb_image *map, struct irb_error *err);
 
 /* Mean, median (of an even count the mean of the middle two), 95th percentile (nearest rank) and
  * maximum; values need not be sorted, NaNs among them are left out. NaN for none. */

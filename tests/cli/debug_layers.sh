@@ -24,11 +24,14 @@ with() { # with MODULE ARGUMENTS...
     "$IRBENCH" "$@" --module "$MODULES/module_$module.so"
 }
 trial='cornell/test-debug:clusters=64@0+128@4'
+kept() { # kept FOLDER: the files of a trial, but for the pictures of the whole sequence
+    (cd "$1/$trial" && ls | grep -v '^film$\|^profile\.\|^flicker\.')
+}
 there() { # there FOLDER FILES...: just these are in the trial's folder
     folder=$1
     shift
     checks=$((checks + 1))
-    (cd "$folder/$trial" && ls | grep -v '^film$') >"$work/files"
+    kept "$folder" >"$work/files"
     printf '%s\n' "$@" | sort | cmp -s - "$work/files" && return
     echo "FAIL: in $folder there are"
     cat "$work/files"
@@ -87,7 +90,7 @@ check "all frames" with debug run "$work/debug.yaml" --out "$work/all" --set deb
 there "$work/all" $(images 0000 0001 0002 0003 0004 0005 0006)
 expect 0 "7 frames are rendered already and get no more debug layers" \
     with debug run "$work/debug.yaml" --out "$work/plain" --debug-layers
-there "$work/plain" $(cd "$work/plain/$trial" && ls | grep -v '^film$')
+there "$work/plain" $(kept "$work/plain")
 
 # what is in the files: the layer of the image's size in the frame's own, by the frame's parameters
 if command -v python3 >/dev/null; then
@@ -116,6 +119,52 @@ for frame in range(7):
     assert list(atlas["Y"]) == ([2.0] * 8 + [math.inf] * 8) * 8
     png = open(f"{sys.argv[2]}/debug-ism-atlas-{frame:04}.png", "rb").read()
     assert png[16:24] == bytes([0, 0, 0, 16, 0, 0, 0, 8]), png[16:24]
+PY
+fi
+
+# The pictures of the sequence, and the residual's layers, from the frames' own layers: a light that
+# jumps once, on a reference at rest.
+if command -v python3 >/dev/null; then
+    checks=$((checks + 1))
+    python3 - "$SOURCE/tests/cycles" "$work/all" "$trial" <<'PY' || failures=$((failures + 1))
+import math, sqlite3, sys
+sys.path.insert(0, sys.argv[1])
+sys.dont_write_bytecode = True
+import exr
+run, trial = sys.argv[2:]
+meta = dict(sqlite3.connect(run + "/results.sqlite").execute("select name, value from meta"))
+row = int(meta["scene/cornell/profile_row"])
+mean = float(meta["scene/cornell/mean_indirect"])
+assert row == 9, row  # nothing changes: the middle one
+images = [exr.read(f"{run}/{trial}/image-{frame:04}.exr")[2] for frame in range(7)]
+width, height, profile = exr.read(f"{run}/{trial}/profile.exr")
+assert (width, height) == (24, 7)
+for frame, image in enumerate(images):
+    for c in "RGB":
+        here, there = slice(24 * frame, 24 * frame + 24), slice(24 * row, 24 * row + 24)
+        assert profile["result." + c][here] == image["indirect." + c][there], frame
+        assert profile["reference." + c][here] == image["reference_indirect." + c][there], frame
+# geometry is where there is albedo, and with it indirect light
+_, _, flicker = exr.read(f"{run}/{trial}/flicker.exr")
+lit = 0
+for p in range(24 * 18):
+    jump = math.sqrt(sum((images[4]["indirect." + c][p] - images[3]["indirect." + c][p]) ** 2 for c in "RGB") / 3)
+    level = math.sqrt(sum(images[4]["reference_indirect." + c][p] ** 2 for c in "RGB") / 3)
+    pairs = flicker["pairs.Y"][p]
+    assert pairs in (0, 6)
+    if jump > 0:
+        assert pairs == 6
+        lit += 1
+    assert abs(flicker["flicker.Y"][p] - jump / math.sqrt(6) / mean) <= 1e-5 * jump / mean, p
+    assert flicker["pops.Y"][p] == (pairs > 0 and jump > 0.1 * max(level, 0.1 * mean)), p
+    for frame, image in enumerate(images):
+        residual = jump / mean if frame == 4 else 0
+        assert abs(image["residual.Y"][p] - residual) <= 1e-5 * residual, (frame, p)
+        assert frame == 4 or image["temporal_flip.Y"][p] == 0, (frame, p)
+assert lit > 100 and max(images[4]["temporal_flip.Y"]) > 0.1
+for name, size in ("profile", (52, 7 * 16)), ("flicker", (24, 18)):
+    png = open(f"{run}/{trial}/{name}.png", "rb").read()
+    assert png[16:24] == b"".join(n.to_bytes(4, "big") for n in size), name
 PY
 fi
 
@@ -178,7 +227,8 @@ for lost in '*-000[0-6]' '*-000[25]'; do
     check "a stopped run goes on" with history run "$work/history.yaml" --out "$work/pieces" --debug-layers
     checks=$((checks + 1))
     for run in whole pieces; do
-        (cd "$work/$run" && find . -name '*-0*' | sort | xargs md5sum) >"$work/$run.md5"
+        (cd "$work/$run" && find . -name '*-0*' -o -name 'profile.*' -o -name 'flicker.*' | sort |
+            xargs md5sum) >"$work/$run.md5"
         numbers history "$work/$run" >"$work/$run.csv"
     done
     [ -s "$work/whole.csv" ] && cmp -s "$work/whole.md5" "$work/pieces.md5" &&

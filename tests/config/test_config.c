@@ -273,6 +273,38 @@ static void expect_box(const struct irb_region *region, int width, int height, i
     assert_int_equal(box[3], y1);
 }
 
+static void expect_row(const struct irb_scene_entry *entry, int height, int expected)
+{
+    int row = -1;
+    assert_true(irb_profile_row(entry, height, &row));
+    assert_int_equal(row, expected);
+}
+
+static void test_profile(void **state)
+{
+    (void)state;
+    struct irb_config c;
+    int row;
+    load(&c,
+         "scenes:\n"
+         "  - {scene: cornell, profile: 17}\n"
+         "  - {scene: cornell, name: b, profile: 0.5}\n"
+         "  - {scene: cornell, name: c, profile: 0}\n"
+         "  - {scene: cornell, name: d}\n"
+         "trials: [rsm]\n",
+         NULL);
+    expect_row(&c.scenes[0], 18, 17);
+    assert_false(irb_profile_row(&c.scenes[0], 17, &row));
+    expect_row(&c.scenes[1], 18, 9);
+    expect_row(&c.scenes[1], 1, 0);
+    expect_row(&c.scenes[2], 18, 0);
+    assert_false(irb_profile_row(&c.scenes[3], 18, &row));
+    irb_config_destroy(&c);
+    load(&c, "scene: cornell\nprofile: 0.999\ntrials: [rsm]\n", NULL);
+    expect_row(&c.scenes[0], 384, 383);
+    irb_config_destroy(&c);
+}
+
 static void test_regions(void **state)
 {
     (void)state;
@@ -430,6 +462,8 @@ static void test_key(void **state)
     assert_string_equal(key_with(full_text, "debug_layers=true").hex, key.hex);
     assert_string_equal(key_with(full_text, "repeats=2").hex, key.hex); /* times alone */
     assert_string_equal(key_with(full_text, "film=false").hex, key.hex);
+    assert_string_equal(key_with("scene: cornell\nprofile: 3\ntrials: [rsm]", NULL).hex,
+                        key_with("scene: cornell\ntrials: [rsm]", NULL).hex);
     assert_string_equal(key_with(full_text, "frames=9").hex, key.hex);
     assert_string_equal(
         key_with("scene: cornell\ntrials: ['rsm:mode=all']", NULL).hex,
@@ -498,6 +532,7 @@ int main(void)
         cmocka_unit_test(test_sweeps),    cmocka_unit_test(test_matrix),
         cmocka_unit_test(test_tracks),    cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_repeats),   cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_profile),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

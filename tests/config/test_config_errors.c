@@ -142,7 +142,7 @@ static void test_top(void **state)
     expect_top("a-key-like-nothing-else: 3",
                "@:2:1: config: unknown key 'a-key-like-nothing-else'; expected one of: name, seed, "
                "seeds, repeats, resolution, reference, scenes, scene, camera, light, animation, "
-               "objects, regions, trials, width, height, frames, settle, rsm_resolution, "
+               "objects, regions, profile, trials, width, height, frames, settle, rsm_resolution, "
                "gbuffer_layout, rsm_layout, exposure, "
                "debug_layers, film");
     expect_top("frames: 3\nframes: 4",
@@ -223,6 +223,12 @@ static void test_regions(void **state)
         "regions: [{name: a, box: [0, 0, 0.0001, 1]}]",
         "@: scene cornell: region a: expected a box with at least one pixel inside the image "
         "of 512 x 384, found [0, 0, 0.0001, 1]");
+    expect_top("profile: middle", "@:2:10: profile: expected a number, found 'middle'");
+    expect_top("profile: -1", "@:2:10: profile: expected a number in [0, 16384], found '-1'");
+    expect_top("profile: 3.5", "@:2:10: profile: expected a row in whole pixels, or a fraction of "
+                               "the height between 0 and 1, found 3.5");
+    expect_top("profile: 384", "@:2:10: profile: expected a row below 384, the height of the "
+                               "image, found 384");
     expect("scenes: [{scene: cornell}]\nregions: []\ntrials: [rsm]\n",
            "@:2:10: regions: expected inside the entries of scenes:, found beside it");
     struct irb_str many = {0};

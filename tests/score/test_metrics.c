@@ -2,7 +2,7 @@
  *
  * Error and flicker metrics against closed forms.
  */
-#include "core/score/metrics.h"
+#include "core/score/flicker.h"
 
 #include "core/base/hash.h"
 #include "core/score/metric_list.h"
