@@ -34,7 +34,7 @@ struct irb_cli {
     struct irb_cli_bound bounds[IRB_CLI_MAX_ARGUMENTS];
     int bound_count;
     const char *layer;                        /* --layer */
-    const char *kind, *scene, *metric, *cost; /* --kind, ...: of plot; NULL = default */
+    const char *kind, *scene, *metric, *cost; /* --kind, ...: of plot, tradeoff; NULL = default */
     const char *out;                          /* --out, NULL = default */
     const char *shader_dir;                   /* --shader-dir */
     const char *format;                       /* --format, NULL = text */
@@ -46,6 +46,7 @@ struct irb_cli {
     bool per_seed;                  /* --per-seed */
     enum irb_table_subject subject; /* --stages, --statistics, --frames, --ratio */
     const char *against;            /* --ratio, NULL = none */
+    double time_ms, error_most;     /* --time, --error; NaN = none */
     const char *figure;             /* --figure, NULL = none */
     char *run_dir;                  /* owned: where a command has left results, else NULL */
     char *command_line;             /* owned: as it was given, for provenance */
@@ -58,6 +59,7 @@ typedef bool (*irb_command_fn)(struct irb_cli *cli, struct irb_error *err);
 
 bool irb_command_run(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_table(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_tradeoff(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_reference(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_list(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_show(struct irb_cli *cli, struct irb_error *err);

@@ -49,6 +49,17 @@ const struct irb_command irb_commands[] = {
      "  irbench plot results/runs/quick-1a2b3c4d --kind stages --scene cornell --out stages.pdf\n"
      "  irbench plot results/runs/quick-1a2b3c4d --kind timeline --only rsm --only ism:vpls=256\n",
      irb_command_plot},
+    {"tradeoff", "CONFIG|RUN", 1, 1, "run an experiment as run does, then say what its error costs",
+     "\nOr take a run that is there. Prints the trials that nothing measured beats in error and "
+     "cost,\n"
+     "the least error within a time and the least time for an error, and every method at equal "
+     "time\n"
+     "and at equal error. RUN/tradeoff gets the same as answers.md, answers.csv, equal-time.csv,\n"
+     "equal-error.csv and pareto.csv, and images of the methods side by side.\n\n"
+     "  irbench tradeoff experiments/tradeoff.yaml --minutes 30\n"
+     "  irbench tradeoff results/runs/tradeoff-1a2b3c4d --time 100 --metric rmse\n"
+     "  irbench tradeoff results/runs/tradeoff-1a2b3c4d --error 0.2\n",
+     irb_command_tradeoff},
     {"reference", "CONFIG", 1, 1, "trace the references of an experiment into the cache",
      "\nThe cache is $IRBENCH_CACHE, else ~/.cache/irbench. Resumable.\n\n"
      "  irbench reference experiments/quick.yaml\n"

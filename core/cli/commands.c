@@ -3,7 +3,7 @@
  * The commands that work on experiments: run, table, reference.
  */
 #include "core/cli/cli.h"
-#include "core/experiment/run.h"
+#include "core/cli/run_options.h"
 #include "core/report/figures.h"
 #include "core/report/table.h"
 
@@ -40,7 +40,7 @@ static bool print_table(const struct irb_cli *cli, const char *run_dir, struct i
     return ok;
 }
 
-static struct irb_run_options run_options(struct irb_cli *cli)
+struct irb_run_options irb_cli_run_options(struct irb_cli *cli)
 {
     return (struct irb_run_options){
         .out = cli->out,
@@ -61,7 +61,7 @@ static struct irb_run_options run_options(struct irb_cli *cli)
 bool irb_command_run(struct irb_cli *cli, struct irb_error *err)
 {
     struct irb_config config = {0};
-    struct irb_run_options options = run_options(cli);
+    struct irb_run_options options = irb_cli_run_options(cli);
     struct irb_table_options table;
     if (!table_options(cli, &table, err) || /* before the work, not after it */
         !irb_config_load(&config, cli->arguments[0], cli->overrides, &cli->registry, err))
@@ -101,7 +101,7 @@ bool irb_command_table(struct irb_cli *cli, struct irb_error *err)
 bool irb_command_reference(struct irb_cli *cli, struct irb_error *err)
 {
     struct irb_config config = {0};
-    struct irb_run_options options = run_options(cli);
+    struct irb_run_options options = irb_cli_run_options(cli);
     if (!irb_config_load(&config, cli->arguments[0], cli->overrides, &cli->registry, err))
         return false;
     bool ok = irb_run_references(&config, &options, cli->key ? stdout : NULL, err);

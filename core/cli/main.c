@@ -2,6 +2,7 @@
 #include "core/cli/cli.h"
 #include "core/experiment/run.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,8 +18,11 @@ static void request_stop(int signal_number)
 
 int main(int argc, char **argv)
 {
-    struct irb_cli cli = {
-        .log = irb_log_default(), .stages = IRB_STAGE_ALL, .stop = &stop_requested};
+    struct irb_cli cli = {.time_ms = NAN,
+                          .error_most = NAN,
+                          .log = irb_log_default(),
+                          .stages = IRB_STAGE_ALL,
+                          .stop = &stop_requested};
     struct irb_error err = {0};
     const struct irb_command *command = NULL;
     signal(SIGINT, request_stop);

@@ -251,6 +251,25 @@ static bool set_figure(struct irb_cli *cli, const char *value, struct irb_error 
     return true;
 }
 
+/* A number above 0 into *to. */
+static bool set_positive(const char *option, const char *value, double *to, struct irb_error *err)
+{
+    char *end;
+    *to = strtod(value, &end);
+    return (end != value && !*end && *to > 0 && *to < 1e12) ||
+           irb_fail(err, IRB_E_USAGE, "%s: expected a number above 0; found '%s'", option, value);
+}
+
+static bool set_time(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    return set_positive("--time", value, &cli->time_ms, err);
+}
+
+static bool set_error(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    return set_positive("--error", value, &cli->error_most, err);
+}
+
 static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     (void)value, (void)err;
@@ -269,7 +288,8 @@ const struct irb_cli_option irb_cli_options[] = {
      set_only},
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
     {"--minutes", NULL, "N",
-     "run: begin no new round (a pass with one seed) after N minutes but each scene's first",
+     "run, tradeoff: begin no new round (a pass with one seed) after N minutes but each scene's "
+     "first",
      set_minutes},
     {"--keep", NULL, "WHICH", "images to keep: some (first, middle, worst, last) or all", set_keep},
     {"--debug-layers", NULL, NULL,
@@ -296,13 +316,20 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--figure", NULL, "KIND",
      "tables: the numbers behind a figure as csv: pareto, stages, timeline, convergence or flicker",
      set_figure},
+    {"--time", NULL, "MS",
+     "tradeoff: the time budget of a frame (default: three that all methods reach)", set_time},
+    {"--error", NULL, "VALUE", "tradeoff: the error that is asked for (default: likewise)",
+     set_error},
     {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},
     {"--kind", NULL, "KIND", "plot: pareto, stages, timeline, convergence or flicker", set_kind},
     {"--scene", NULL, "NAME", "plot: this scene alone (default: a panel for each)", set_scene},
     {"--metric", NULL, "NAME",
-     "plot: indirect_flip, indirect_rmse, indirect_relmse or indirect_flicker", set_metric},
+     "plot, tradeoff: indirect_flip, indirect_rmse, indirect_relmse or indirect_flicker; for "
+     "tradeoff "
+     "the short names do: flip (default), rmse, relmse, flicker",
+     set_metric},
     {"--cost", NULL, "COST", "plot: pareto's cost, ms (default) or bytes", set_cost},
     {"--key", NULL, NULL, "reference: print the cache key of every frame and stop", set_key},
     {"--verbose", "-v", NULL, "say more", set_verbose},

@@ -163,16 +163,18 @@ int irb_common_budgets(const struct irb_analysis_scene *scene, int wanted, int b
                        double budgets[IRB_MOST_BUDGETS])
 {
     struct irb_methods methods = irb_scene_methods(scene);
-    double low = -INFINITY, high = INFINITY, least, most;
+    double low = -INFINITY, high = INFINITY, end = -INFINITY, least, most;
     for (int m = 0; m < methods.count; m++) {
         if (!front_range(scene, methods.list[m], wanted, bounded, &least, &most))
             continue;
         low = fmax(low, least);
         high = fmin(high, most);
+        end = fmax(end, most);
     }
     free(methods.list);
     if (low == -INFINITY)
         return 0;
+    high = high > low ? high : end;
     budgets[0] = low;
     if (!(high > low) || !(low > 0) || isinf(high))
         return 1;

@@ -44,9 +44,10 @@ struct irb_bracket {
 struct irb_bracket irb_bracket(const struct irb_analysis *analysis,
                                const struct irb_question *question);
 
-/* Up to three bounds, spread evenly in log over what the fronts (wanted, bounded) of all methods
- * cover: from where the last method begins to where the first one ends. One, the beginning, where
- * they have nothing in common; none where no method has a point. Returns how many. */
+/* Up to three bounds, spread evenly in log from where the front (wanted, bounded) of the last
+ * method begins, so that all methods have a point within each, to where the first one ends; where
+ * that is before, to where the last one ends. One where all of it is one value, none where no
+ * method has a point. Returns how many. */
 enum { IRB_MOST_BUDGETS = 3 };
 int irb_common_budgets(const struct irb_analysis_scene *scene, int wanted, int bounded,
                        double budgets[IRB_MOST_BUDGETS]);

@@ -97,6 +97,7 @@ static int set_up(void **state)
     add_point(store, "line", "b", "b:slow", 0.5, 0, 150); /* dominated */
     add_point(store, "apart", "a", "a", 1, 0, 10);
     add_point(store, "apart", "b", "b", 1, 0, 20);
+    add_point(store, "apart", "b", "b:slow", 0.5, 0, 80);
     trials_add(store, "bare", "a", "a", "{}", 1);
     return irb_analysis_read(&analysis, store, 0.95, &err) ? 0 : -1;
 }
@@ -215,8 +216,11 @@ static void test_budgets(void **state)
     REQUIRE_REL(budgets[1], sqrt(20 * 100), 1e-12);
     REQUIRE_NEAR(budgets[2], 100, 0);
     scene = &analysis.scenes[irb_analysis_scene_find(&analysis, "apart")];
-    assert_int_equal(irb_common_budgets(scene, M(indirect_flip), M(frame_ms), budgets), 1);
+    assert_int_equal(irb_common_budgets(scene, M(indirect_flip), M(frame_ms), budgets), 3);
     REQUIRE_NEAR(budgets[0], 20, 0);
+    REQUIRE_NEAR(budgets[2], 80, 0);
+    assert_int_equal(irb_common_budgets(scene, M(frame_ms), M(indirect_flip), budgets), 1);
+    REQUIRE_NEAR(budgets[0], 1, 0);
     scene = &analysis.scenes[irb_analysis_scene_find(&analysis, "bare")];
     assert_int_equal(irb_common_budgets(scene, M(indirect_flip), M(frame_ms), budgets), 0);
 }
