@@ -230,6 +230,19 @@ static void measure_all(const struct irb_analysis *analysis, struct irb_analysis
             irb_trial_measure(trial, irb_ranked_metrics[i], analysis->confidence);
 }
 
+/* Of a run that goes on: whether a seed has as many frames as the trial's most complete one. The
+ * tables leave out the others too. */
+static bool is_comparable(const struct irb_table_data *data, const struct irb_table_row *row)
+{
+    for (int i = 0; i < data->row_count; i++) {
+        const struct irb_table_row *other = &data->rows[i];
+        if (other->frames > row->frames && !strcmp(other->trial->scene, row->trial->scene) &&
+            !strcmp(other->trial->trial, row->trial->trial))
+            return false;
+    }
+    return true;
+}
+
 bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, double confidence,
                        struct irb_error *err)
 {
@@ -240,7 +253,7 @@ bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, d
     irb_table_order_stages(&analysis->stages, store, &data.trials);
     bool ok = true;
     for (int i = 0; ok && i < data.row_count; i++)
-        ok = read_seed(analysis, &data.rows[i], store, err);
+        ok = !is_comparable(&data, &data.rows[i]) || read_seed(analysis, &data.rows[i], store, err);
     irb_table_data_destroy(&data);
     if (!ok) {
         irb_analysis_destroy(analysis);

@@ -33,8 +33,7 @@ double irb_trial_value(const struct irb_analysis_trial *trial, int metric)
 
 static bool is_square(int metric)
 {
-    return metric == M(indirect_rmse) || metric == M(full_rmse) || metric == M(solution_rmse) ||
-           metric == M(claim_rmse) || metric == M(indirect_flicker) || metric == M(full_flicker);
+    return irb_metric_aggregate(metric) == IRB_AGGREGATE_ROOT_MEAN_SQUARE;
 }
 
 /* Whether the sequence's value is the mean (of squares: its root) of the frames'. */
@@ -46,8 +45,7 @@ static bool is_of_frames(int metric)
     case M(solution_energy_ratio):
     case M(claim_energy_ratio):
     case M(lag):
-    case M(non_finite):
-    case M(negative):
+    case M(indirect_flip_noise):
     case M(masked_share):
     case M(uncovered_flux):
     case M(clamped_light):
@@ -59,7 +57,7 @@ static bool is_of_frames(int metric)
     case M(gl_bytes):
         return false;
     default:
-        return true;
+        return irb_metric_aggregate(metric) != IRB_AGGREGATE_SUM;
     }
 }
 
@@ -191,24 +189,6 @@ static double frame_mean(const struct common_seeds *c, int which, int frame, int
     return sum / c->count;
 }
 
-static void blocks_as_units(struct irb_paired *p, const struct common_seeds *c, int metric)
-{
-    int frames = c->count && is_of_frames(metric) ? seed_of(c, 0, 0)->frame_count : 0;
-    allocate(p, frames);
-    for (int f = 0; f < frames; f++)
-        append(p, c->trials, frame_mean(c, 0, f, metric),
-               c->trials > 1 ? frame_mean(c, 1, f, metric) : NAN);
-    int series = p->count, blocks[2];
-    for (int w = 0; w < c->trials; w++) {
-        double means[IRB_BLOCKS_MOST];
-        blocks[w] = irb_blocks(p->of[w], series, means);
-        memcpy(p->of[w], means, (size_t)blocks[w] * sizeof *means);
-    }
-    /* no pairs where one of both has no blocks */
-    p->count = c->trials > 1 && blocks[0] != blocks[1] ? 0 : blocks[0];
-    p->squares = is_square(metric);
-}
-
 static bool all_finite(const struct irb_paired *p, int trials)
 {
     for (int w = 0; w < trials; w++)
@@ -216,6 +196,23 @@ static bool all_finite(const struct irb_paired *p, int trials)
             if (!isfinite(p->of[w][i]))
                 return false;
     return true;
+}
+
+static void blocks_as_units(struct irb_paired *p, const struct common_seeds *c, int metric)
+{
+    int frames = c->count && is_of_frames(metric) ? seed_of(c, 0, 0)->frame_count : 0;
+    allocate(p, frames);
+    for (int f = 0; f < frames; f++)
+        append(p, c->trials, frame_mean(c, 0, f, metric),
+               c->trials > 1 ? frame_mean(c, 1, f, metric) : NAN);
+    double means[2][IRB_BLOCKS_MOST];
+    p->squares = is_square(metric);
+    if (!all_finite(p, c->trials))
+        p->count = 0;
+    p->count = c->trials > 1 ? irb_blocks_pair(p->of[0], p->of[1], p->count, means[0], means[1])
+                             : irb_blocks(p->of[0], p->count, means[0]);
+    for (int w = 0; w < c->trials; w++)
+        memcpy(p->of[w], means[w], (size_t)p->count * sizeof *means[w]);
 }
 
 static double common_mean(const struct common_seeds *c, int which, int metric)
@@ -285,15 +282,15 @@ static struct irb_interval without_noise(const struct irb_analysis_trial *trial,
     double noise = irb_trial_value(trial, M(reference_noise));
     double floor = irb_trial_value(trial, M(reference_flicker));
     double share = noise / irb_trial_value(trial, M(indirect_relmse)); /* of the squared error */
-    int flip_noise = irb_metric_find("indirect_flip_noise");
+    double flip_noise = irb_trial_value(trial, M(indirect_flip_noise));
     if (metric == M(indirect_relmse) && noise > 0)
         return irb_interval_less_noise(i, noise, false);
     if (metric == M(indirect_rmse) && share > 0)
         return irb_interval_less_noise(i, fmin(share, 1) * i.value * i.value, true);
     if (metric == M(indirect_flicker) && floor > 0)
         return irb_interval_less_noise(i, floor * floor, true);
-    if (metric == M(indirect_flip) && flip_noise >= 0 && irb_trial_value(trial, flip_noise) > 0)
-        return irb_interval_less_noise(i, irb_trial_value(trial, flip_noise), false);
+    if (metric == M(indirect_flip) && flip_noise > 0)
+        return irb_interval_less_noise(i, flip_noise, false);
     return i;
 }
 

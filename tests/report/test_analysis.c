@@ -26,15 +26,15 @@ static void fill_seeds(struct irb_store *store)
         const struct irb_store_value a_values[] = {{"indirect_relmse", of_a[i]},
                                                    {"indirect_energy_ratio", 0.9 + 0.01 * i},
                                                    {"indirect_pop_share", 0.1 + 0.01 * i}};
-        const struct irb_store_value c_values[] = {{"indirect_relmse", of_a[i]},
-                                                   {"indirect_rmse", of_a[i]},
-                                                   {"reference_noise", 1.5},
-                                                   {"indirect_flicker", 2 + of_a[i]},
-                                                   {"reference_flicker", 1.5}};
+        const struct irb_store_value c_values[] = {
+            {"indirect_relmse", of_a[i]}, {"indirect_rmse", of_a[i]},
+            {"reference_noise", 1.5},     {"indirect_flicker", 2 + of_a[i]},
+            {"reference_flicker", 1.5},   {"indirect_flip", of_a[i]},
+            {"indirect_flip_noise", 0.25}};
         const struct irb_store_value b_values[] = {{"indirect_relmse", of_b[SEEDS - 1 - i]},
                                                    {"indirect_energy_ratio", 1.1 - 0.02 * i}};
         trials_scores(store, a, -1, a_values, 3);
-        trials_scores(store, c, -1, c_values, 5);
+        trials_scores(store, c, -1, c_values, 7);
         trials_scores(store, b, -1, b_values, 2);
         trials_score(store, d, -1, "indirect_relmse", of_b[i] * (i % 2 ? 0.99 : 1.01));
         trials_score(store, z, -1, "indirect_pop_share", 0);
@@ -222,6 +222,9 @@ static void test_noise(void **state)
     mean = irb_mean_interval(of_c, SEEDS, 0.95);
     REQUIRE_NEAR(measure("seeds", "c", M(indirect_flicker)).interval.low,
                  sqrt(fmax(0, mean.low * mean.low - 1.5 * 1.5)), 1e-12);
+    mean = irb_mean_interval(of_a, SEEDS, 0.95);
+    REQUIRE_NEAR(measure("seeds", "c", M(indirect_flip)).interval.low, fmax(0, mean.low - 0.25),
+                 1e-12);
     const struct irb_analysis_scene *scene = &analysis.scenes[scene_named("seeds")];
     assert_false(scene->trials[trial_named("seeds", "c")].at_noise[M(indirect_relmse)]);
     /* as measured: the same noise is in both */
@@ -240,12 +243,13 @@ static void test_blocks(void **state)
     }
     int count = irb_blocks(a, FRAMES, blocks_a);
     assert_true(count >= 3);
-    assert_int_equal(irb_blocks(b, FRAMES, blocks_b), count);
     /* of the mean square; its root at the value of the table */
     struct irb_interval mean = irb_mean_interval(blocks_a, count, 0.95);
     double move = rmse_of(1) / sqrt(mean.value);
     expect_interval(measure("frames", "a", M(indirect_rmse)), IRB_UNIT_BLOCK, count, rmse_of(1),
                     move * sqrt(mean.low), move * sqrt(mean.high));
+    count = irb_blocks_pair(a, b, FRAMES, blocks_a, blocks_b);
+    assert_true(count >= 3);
     struct irb_interval pairs = irb_ratio_interval(blocks_a, blocks_b, count, 0.95);
     move = 0.5 / sqrt(pairs.value);
     expect_interval(ratio("frames", "a", "b", M(indirect_rmse)), IRB_UNIT_BLOCK, count, 0.5,
