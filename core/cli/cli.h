@@ -30,7 +30,10 @@ struct irb_cli {
     int override_count;
     const char *only[IRB_CLI_MAX_ARGUMENTS]; /* --only, trial names */
     int only_count;
-    char *seed; /* owned: the override that --seed became */
+    const char *trials[IRB_CLI_MAX_ARGUMENTS]; /* --trial, names */
+    int trial_count;
+    double max_mb; /* --max-mb, 0 = default */
+    char *seed;    /* owned: the override that --seed became */
     struct irb_cli_bound bounds[IRB_CLI_MAX_ARGUMENTS];
     int bound_count;
     const char *layer;                        /* --layer */
@@ -66,6 +69,7 @@ bool irb_command_show(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_docs(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_inspect(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_plot(struct irb_cli *cli, struct irb_error *err);
+bool irb_command_report(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_compare(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_export_scene(struct irb_cli *cli, struct irb_error *err);
 bool irb_command_doctor(struct irb_cli *cli, struct irb_error *err);

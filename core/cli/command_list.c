@@ -60,6 +60,16 @@ const struct irb_command irb_commands[] = {
      "  irbench tradeoff results/runs/tradeoff-1a2b3c4d --time 100 --metric rmse\n"
      "  irbench tradeoff results/runs/tradeoff-1a2b3c4d --error 0.2\n",
      irb_command_tradeoff},
+    {"report", "RUN", 1, 1, "write a run as one HTML file: answers, tables, figures, image viewer",
+     "\nThe file needs nothing else, neither a network nor other files; without --out it is\n"
+     "RUN/report.html. Figures need gnuplot; without it the page has their data alone. Images are\n"
+     "those of the run's film; where all of them would be larger than --max-mb (25), those of "
+     "each\n"
+     "method's best trial and of every --trial are taken, then fewer frames, and the page says "
+     "so.\n\n"
+     "  irbench report results/runs/quick-1a2b3c4d\n"
+     "  irbench report results/runs/quick-1a2b3c4d --out quick.html --trial rsm --max-mb 10\n",
+     irb_command_report},
     {"reference", "CONFIG", 1, 1, "trace the references of an experiment into the cache",
      "\nThe cache is $IRBENCH_CACHE, else ~/.cache/irbench. Resumable.\n\n"
      "  irbench reference experiments/quick.yaml\n"

@@ -49,6 +49,24 @@ static bool set_only(struct irb_cli *cli, const char *value, struct irb_error *e
     return true;
 }
 
+static bool set_trial(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    if (cli->trial_count == IRB_CLI_MAX_ARGUMENTS)
+        return irb_fail(err, IRB_E_USAGE, "--trial: at most %d trials", IRB_CLI_MAX_ARGUMENTS);
+    cli->trials[cli->trial_count++] = value;
+    return true;
+}
+
+static bool set_max_mb(struct irb_cli *cli, const char *value, struct irb_error *err)
+{
+    char *end;
+    double mb = strtod(value, &end);
+    if (end == value || *end || !(mb >= 1 && mb <= 1000))
+        return irb_fail(err, IRB_E_USAGE, "--max-mb: expected 1 to 1000; found '%s'", value);
+    cli->max_mb = mb;
+    return true;
+}
+
 static bool set_backend(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     for (int i = 0; irb_backend_names[i]; i++) {
@@ -286,6 +304,10 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--seed", NULL, "N", "run with this seed instead of the config's", set_seed},
     {"--only", NULL, "TRIAL", "run only this trial, or show it in a timeline (may be repeated)",
      set_only},
+    {"--trial", NULL, "TRIAL", "report: show this trial's images in any case (may be repeated)",
+     set_trial},
+    {"--max-mb", NULL, "N", "report: megabytes that images may make the file (default 25)",
+     set_max_mb},
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
     {"--minutes", NULL, "N",
      "run, tradeoff: begin no new round (a pass with one seed) after N minutes but each scene's "

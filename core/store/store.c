@@ -57,6 +57,7 @@ static const char view_sql[] = "PRAGMA temp_store = MEMORY;"
 enum statement {
     SET_META,
     GET_META,
+    READ_META,
     FIND_TRIAL,
     ADD_TRIAL,
     ADD_FRAME,
@@ -82,6 +83,7 @@ enum statement {
 static const char *const statement_sql[STATEMENTS] = {
     [SET_META] = "INSERT OR REPLACE INTO meta(name, value) VALUES(?1, ?2)",
     [GET_META] = "SELECT value FROM meta WHERE name = ?1",
+    [READ_META] = "SELECT name, value FROM meta ORDER BY name",
     [FIND_TRIAL] = "SELECT id, method, params FROM trial"
                    " WHERE scene = ?1 AND trial = ?2 AND seed = ?3",
     [ADD_TRIAL] = "INSERT INTO trial(scene, trial, seed, method, params) VALUES(?1,?2,?3,?4,?5)",
@@ -336,6 +338,22 @@ char *irb_store_get_meta(struct irb_store *store, const char *name)
     sqlite3_reset(stmt);
     sqlite3_clear_bindings(stmt);
     return value;
+}
+
+bool irb_store_read_meta(struct irb_store *store, irb_store_meta_fn fn, void *user,
+                         struct irb_error *err)
+{
+    sqlite3_stmt *stmt = statement(store, READ_META);
+    if (!stmt)
+        return fail(store, "read", err);
+    int result;
+    while ((result = sqlite3_step(stmt)) == SQLITE_ROW) {
+        const char *value = (const char *)sqlite3_column_text(stmt, 1);
+        fn(user, (const char *)sqlite3_column_text(stmt, 0), value ? value : "");
+    }
+    bool ok = result == SQLITE_DONE || fail(store, "read", err);
+    sqlite3_reset(stmt);
+    return ok;
 }
 
 /* ---- trials ---- */

@@ -29,6 +29,11 @@ bool irb_store_set_meta(struct irb_store *store, const char *name, const char *v
                         struct irb_error *err);
 char *irb_store_get_meta(struct irb_store *store, const char *name);
 
+/* Calls fn for every value, ordered by name. */
+typedef void (*irb_store_meta_fn)(void *user, const char *name, const char *value);
+bool irb_store_read_meta(struct irb_store *store, irb_store_meta_fn fn, void *user,
+                         struct irb_error *err);
+
 /* A trial of a scene; returns its id (>= 1), creating the row if needed; 0 on failure.
  * IRB_E_INPUT where the row is there with another method or other parameters. */
 int64_t irb_store_trial(struct irb_store *store, const char *scene, const char *method,

@@ -18,6 +18,7 @@ expect 2 "--threads" "$IRBENCH" run x.yaml --threads zero
 expect 2 "--out: expected DIR, found nothing" "$IRBENCH" run x.yaml --out
 expect 2 "is no method, scene, metric or config" "$IRBENCH" show nonsense
 expect 2 "list: expected methods" "$IRBENCH" list colours
+expect 2 "max-mb: expected 1 to 1000; found '0'" "$IRBENCH" report "$work" --max-mb 0
 expect 2 "format: expected text, csv, md, json or latex, found 'html'" "$IRBENCH" table "$work" --format html
 
 # --- config ---
@@ -129,6 +130,7 @@ check "a good triangle loads" "$IRBENCH" inspect "$work/triangle.gltf"
 : >"$work/a-file"
 expect 5 "a-file" "$IRBENCH" run "$work/good.yaml" --out "$work/a-file/run"
 expect 3 "no-run" "$IRBENCH" table "$work/no-run"
+expect 3 "no-run" "$IRBENCH" report "$work/no-run"
 mkdir "$work/garbage" && head -c 5000 /dev/zero >"$work/garbage/results.sqlite"
 expect 3 "results.sqlite" "$IRBENCH" table "$work/garbage"
 
