@@ -257,6 +257,7 @@ static void score_reference(const struct irb_score_context *context, bool tempor
     const struct irb_target *target = context->target;
     double mean = context->constants->mean_indirect;
     v[IRB_METRIC_reference_noise] = target->noise_relmse;
+    v[IRB_METRIC_reference_noise_rmse] = sqrt(target->noise_variance);
     v[IRB_METRIC_masked_share] = target->masked_share;
     if (!temporal)
         return;

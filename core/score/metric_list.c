@@ -68,6 +68,7 @@ enum irb_aggregate irb_metric_aggregate(int metric)
     case IRB_METRIC_claim_rmse:
     case IRB_METRIC_indirect_flicker:
     case IRB_METRIC_full_flicker:
+    case IRB_METRIC_reference_noise_rmse:
     case IRB_METRIC_reference_flicker:
         return IRB_AGGREGATE_ROOT_MEAN_SQUARE;
     case IRB_METRIC_non_finite:

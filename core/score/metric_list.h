@@ -74,7 +74,11 @@
     X(reference_noise, "", NONE,                                                                   \
       "relative MSE that the reference's own noise makes in the indirect image; an error below "   \
       "it is not ranked")                                                                          \
-    X(reference_flicker, "", NONE, "flicker that the reference's own noise can make: the floor")   \
+    X(reference_noise_rmse, IRB_RADIANCE_UNIT, NONE,                                               \
+      "RMSE that the reference's own noise makes in the indirect image")                           \
+    X(reference_flicker, "", NONE,                                                                 \
+      "most flicker that the reference's own noise can make, were it another in each frame; its "  \
+      "samples stay from frame to frame, so it is less")                                           \
     X(indirect_flip_noise, "", NONE,                                                               \
       "by how much indirect_flip grows in the middle frame with as much noise again in the "       \
       "reference: indirect_flip less this estimates FLIP against a reference without noise "       \
