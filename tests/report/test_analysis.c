@@ -105,6 +105,18 @@ static void fill_repeats(struct irb_store *store)
     }
 }
 
+/* Scene "partial": a run that goes on, whose second seed has one frame of three so far. */
+static void fill_partial(struct irb_store *store)
+{
+    struct irb_error err = {0};
+    REQUIRE_OK(irb_store_set_meta(store, "scene/partial/keys", "a a\nb b\nc c\n", &err));
+    int64_t whole = trials_add(store, "partial", "m", "a", "{}", 1);
+    int64_t partial = trials_add(store, "partial", "m", "a", "{}", 2);
+    trials_score(store, whole, 0, "indirect_flip", 1);
+    trials_score(store, whole, -1, "indirect_flip", 2);
+    trials_score(store, partial, 0, "indirect_flip", 100);
+}
+
 static struct irb_analysis analysis;
 
 static int set_up(void **state)
@@ -115,6 +127,7 @@ static int set_up(void **state)
     fill_seeds(store);
     fill_frames(store);
     fill_repeats(store);
+    fill_partial(store);
     return irb_analysis_read(&analysis, store, 0.95, &err) ? 0 : -1;
 }
 
@@ -312,6 +325,16 @@ static void test_repeats(void **state)
     assert_int_equal(measure("repeats", "a", M(frame_ms_worst)).unit, IRB_UNIT_NONE);
 }
 
+static void test_partial(void **state)
+{
+    (void)state;
+    const struct irb_analysis_scene *scene = &analysis.scenes[scene_named("partial")];
+    assert_int_equal(scene->trial_count, 1);
+    assert_int_equal(scene->trials[0].seed_count, 1);
+    assert_int_equal(scene->trials[0].seeds[0].seed, 1);
+    REQUIRE_NEAR(measure("partial", "a", M(indirect_flip)).interval.value, 2, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -322,6 +345,7 @@ int main(void)
         cmocka_unit_test(test_blocks_of_energy),
         cmocka_unit_test(test_blocks_of_time),
         cmocka_unit_test(test_repeats),
+        cmocka_unit_test(test_partial),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
