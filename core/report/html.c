@@ -174,7 +174,7 @@ static bool write_page(const struct irb_html_page *page, const char *path,
         ok = irb_fail(err, IRB_E_IO, "cannot write: %s", strerror(errno));
     if (!ok) {
         remove(temp);
-        irb_error_prefix(err, path);
+        irb_error_prefix(err, "%s", path);
     }
     ok = ok && irb_fs_commit(temp, path, err);
     free(temp);

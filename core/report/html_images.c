@@ -70,19 +70,33 @@ static void find_file(struct irb_html_strip *strip, const char *folder, const ch
     strip_put(strip, 0, irb_asprintf("%s/%s", folder, name));
 }
 
-/* Of several seeds the first has the images. */
-static char *trial_folder(const char *run, const char *scene,
-                          const struct irb_analysis_trial *trial)
+/* FOLDER, or where there is none NULL; takes the folder. */
+static char *folder_with(const char *run, const char *scene, char *folder, const char *file)
 {
-    char *folder = irb_asprintf("%s/seed-%d", trial->trial, trial->seeds[0].seed);
-    char *path = irb_run_folder(run, scene, folder);
-    if (irb_fs_exists(path)) {
-        free(path);
-        return folder;
-    }
+    char *path = irb_asprintf("%s/%s/%s/%s", run, scene, folder, file);
+    bool there = irb_fs_exists(path);
     free(path);
+    if (there)
+        return folder;
     free(folder);
-    return irb_strdup(trial->trial);
+    return NULL;
+}
+
+/* TRIAL/seed-N of the seed that has a film, which is one of several; else of the first one; TRIAL
+ * where a trial has one seed alone. *seed is that seed's index. */
+static char *trial_folder(const char *run, const char *scene,
+                          const struct irb_analysis_trial *trial, int *seed)
+{
+    char *folder = NULL;
+    for (*seed = 0; *seed < trial->seed_count; ++*seed) {
+        folder = irb_asprintf("%s/seed-%d", trial->trial, trial->seeds[*seed].seed);
+        if ((folder = folder_with(run, scene, folder, "film")))
+            return folder;
+    }
+    *seed = 0;
+    folder = irb_asprintf("%s/seed-%d", trial->trial, trial->seeds[0].seed);
+    folder = folder_with(run, scene, folder, "");
+    return folder ? folder : irb_strdup(trial->trial);
 }
 
 static void find_worst(struct irb_html_trial_images *images, const struct irb_analysis_seed *seed)
@@ -100,7 +114,9 @@ static void find_worst(struct irb_html_trial_images *images, const struct irb_an
 static void find_trial(struct irb_html_trial_images *images, const char *run, const char *scene,
                        const struct irb_analysis_trial *trial, int frame_count)
 {
-    char *folder = trial_folder(run, scene, trial), *path = irb_run_folder(run, scene, folder);
+    int seed = 0;
+    char *folder = trial_folder(run, scene, trial, &seed);
+    char *path = irb_run_folder(run, scene, folder);
     const struct irb_frame_place place = {run, scene, folder, 0};
     find_frames(&images->indirect, place, frame_count, "film/indirect", "jpg");
     find_frames(&images->flip, place, frame_count, "film/flip", "jpg");
@@ -109,7 +125,7 @@ static void find_trial(struct irb_html_trial_images *images, const char *run, co
     find_file(&images->flicker, path, "flicker.png");
     find_frames(&images->sheets, place, frame_count, "image", "png");
     images->has_film = strip_any(&images->indirect);
-    find_worst(images, &trial->seeds[0]);
+    find_worst(images, &trial->seeds[seed]);
     free(path);
     free(folder);
 }

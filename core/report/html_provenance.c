@@ -86,7 +86,7 @@ static void intervals(struct irb_str *out, const struct irb_html_page *page)
     irb_str_printf(
         out,
         "<details id=\"how-intervals\"><summary>How intervals are made</summary>"
-        "<p>Intervals are of %g %% confidence, by a studentised bootstrap of what was repeated "
+        "<p>Intervals are of %g %% confidence, by the smoothed bootstrap-t over what was repeated "
         "independently: seeds, where a trial has %d of them or more; else, of times, whole rounds "
         "of the sequence; else blocks of frames that follow one another, since frames themselves "
         "are not independent. Seeds stand for all that a method draws at random; blocks tell "

@@ -380,6 +380,13 @@ def check_failures(page):
     check("shown in the viewer", state == ["1", "flip"], state)
 
 
+def check_beside(page):
+    """Profile and flicker map of A."""
+    page.browser.until("return [...document.querySelectorAll('#beside img')].every((image) => image.naturalWidth > 0)")
+    count = page.browser.run("return document.querySelectorAll('#beside img').length")
+    check("profile and flicker", count == 2, count)
+
+
 def check_theme(page):
     def brightness():
         return page.browser.run("return getComputedStyle(document.body).backgroundColor.match(/[0-9]+/)[0]")
@@ -443,7 +450,7 @@ def check_all(run, screenshot):
         page = Page(browser, run)
         check_load(page, path)
         for part in (check_viewer, check_frames, check_split, check_maps, check_reading, check_zoom,
-                     check_table, check_figures, check_failures, check_theme, check_widths):
+                     check_table, check_figures, check_failures, check_beside, check_theme, check_widths):
             part(page)
         browser.screenshot(screenshot, whole=True)
         check_quiet(browser, path)

@@ -318,7 +318,8 @@ function describe() {
     find("frame-text").textContent = `frame ${frames[view.frame]} of 0 to ${view.scene.total - 1}`;
     find("frame").value = view.frame;
     find("exposure").value = view.stops;
-    find("exposure-text").textContent = `${view.stops < 0 ? "\u2212" : "+"}${Math.abs(view.stops).toFixed(2)} EV, \u00d7${number(view.scene.exposure * 2 ** view.stops)}`;
+    const stops = (view.stops < 0 ? "\u2212" : "+") + Math.abs(view.stops).toFixed(2);
+    find("exposure-text").textContent = `${stops} EV, \u00d7${number(view.scene.exposure * 2 ** view.stops)}`;
     find("opacity-text").textContent = `${Math.round(100 * view.opacity)} %`;
     find("map").value = view.map;
     find("play").textContent = view.playing ? "\u23f8" : "\u25b6";
@@ -491,12 +492,12 @@ function openScene(index) {
     find("b").value = REFERENCE;
     find("frame").max = scene.frames.length - 1;
     for (const input of document.querySelectorAll('input[name="layer"][value="full"]'))
-        input.disabled = !scene.films.direct || !scene.films.directReference;
+        input.disabled = !scene.full;
     const residuals = scene.trials.some((trial) => trial.film && trial.film.residual);
     find("map").querySelector('[value="residual"]').disabled = !residuals;
     if (view.map === "residual" && !residuals)
         view.map = "none";
-    if (view.layer === "full" && !scene.films.directReference) {
+    if (view.layer === "full" && !scene.full) {
         view.layer = "indirect";
         check("layer", "indirect");
     }
@@ -507,10 +508,14 @@ function openScene(index) {
 
 function describePrecision(scene) {
     const step = ([v0, vmax]) => number(100 * (2 ** (Math.log2(1 + vmax / v0) / 255) - 1));
-    find("precision").textContent = "Radiance in W/(m\u00b2 sr), of the first seed. The film holds 8 bits a channel on a logarithmic scale: one code "
-        + `is ${step(scene.coding.indirect)} % of v + ${number(scene.coding.indirect[0])} (indirect light, up to ${number(scene.coding.indirect[1])})`
-        + (scene.coding.direct ? ` and ${step(scene.coding.direct)} % of v + ${number(scene.coding.direct[0])} (direct light, up to ${number(scene.coding.direct[1])})` : "")
-        + ", and JPEG adds a few codes at edges. Scores are of the full-precision images; the EXR files that the run kept have these.";
+    const one = (kind) => {
+        const coding = scene.coding[kind];
+        return `${step(coding)} % of v + ${number(coding[0])} (${kind} light, up to ${number(coding[1])})`;
+    };
+    find("precision").textContent = "Radiance in W/(m\u00b2 sr), of the first seed. The film holds 8 bits a channel on a "
+        + `logarithmic scale: one code is ${one("indirect")}${scene.coding.direct ? ` and ${one("direct")}` : ""}, and `
+        + "JPEG adds a few codes at edges. Scores are of the full-precision images; the EXR files that the run kept "
+        + "have these.";
 }
 
 // Temporal profile and flicker map of A and B.
@@ -523,8 +528,9 @@ function showBeside() {
         const pair = element("div", "pair"), heading = element("h4", "", `${"AB"[side]}  ${trial.name}`);
         pair.append(heading);
         const row = view.scene.profileRow === null ? "One row of the image" : `Row ${view.scene.profileRow} of the image`;
-        for (const [id, text] of [[trial.profile, `${row} over time, downwards: the trial at the left, the reference at the right`],
-                                  [trial.flicker, "Where it flickers: rms over the sequence of the temporal residual"]]) {
+        for (const [id, text] of [
+            [trial.profile, `${row} over time, downwards: the trial at the left, the reference at the right`],
+            [trial.flicker, "Where it flickers: rms over the sequence of the temporal residual"]]) {
             if (!id)
                 continue;
             const figure = element("figure"), picture = new Image();
@@ -556,7 +562,7 @@ const KEYS = {
         const maps = MAPS.filter((map) => !find("map").querySelector(`[value="${map}"]`).disabled);
         setMap(maps[(maps.indexOf(view.map) + 1) % maps.length]);
     },
-    l: () => { if (view.scene.films.directReference) choose("layer", view.layer === "full" ? "indirect" : "full"); },
+    l: () => { if (view.scene.full) choose("layer", view.layer === "full" ? "indirect" : "full"); },
     t: () => choose("tone", view.tone === "linear" ? "reinhard" : "linear"),
     "[": () => setStops(view.stops - 0.5), "]": () => setStops(view.stops + 0.5),
     "+": () => zoom(Math.SQRT2), "=": () => zoom(Math.SQRT2), "-": () => zoom(Math.SQRT1_2), 0: fit,
@@ -612,7 +618,8 @@ function onPan(event) {
     view.scale = scaleNow();
     let from = [event.clientX, event.clientY];
     const move = (now) => {
-        view.centre = [view.centre[0] - (now.clientX - from[0]) / view.scale, view.centre[1] - (now.clientY - from[1]) / view.scale];
+        view.centre = [view.centre[0] - (now.clientX - from[0]) / view.scale,
+                       view.centre[1] - (now.clientY - from[1]) / view.scale];
         from = [now.clientX, now.clientY];
         draw();
     };
@@ -677,10 +684,12 @@ function listen() {
 }
 
 function openViewer() {
-    const scenes = [...run.scenes.entries()].filter(([, scene]) => scene.films.reference && scene.trials.some((trial) => trial.film));
+    const scenes = [...run.scenes.entries()].filter(([, scene]) =>
+        scene.films.reference && scene.coding.indirect && scene.trials.some((trial) => trial.film));
     for (const [, scene] of scenes) {
         scene.table = radianceTable(scene.coding.indirect);
         scene.directTable = scene.coding.direct && radianceTable(scene.coding.direct);
+        scene.full = scene.directTable && scene.films.direct && scene.films.directReference;
     }
     if (!scenes.length)
         return;
