@@ -37,24 +37,39 @@ static struct irb_run begin_run(const struct irb_config *config,
     };
 }
 
-/* Opens the run folder; refuses one that holds another experiment. */
-static bool open_results(struct irb_run *run, struct irb_error *err)
+static bool holds_this(const struct irb_run *run, struct irb_store *store, struct irb_error *err)
 {
-    const struct irb_config *config = run->config;
-    struct irb_key key = run->config_key;
-    run->dir = run->options->out ? irb_strdup(run->options->out)
-                                 : irb_asprintf("results/runs/%s-%.8s", config->name, key.hex);
-    if (!irb_fs_make_dirs(run->dir, err) || !(run->store = irb_store_open(run->dir, true, err)))
-        return false;
-    char *stored = irb_store_get_meta(run->store, "config_key");
-    bool same = !stored || !strcmp(stored, key.hex);
+    char *stored = irb_store_get_meta(store, "config_key");
+    bool same = !stored || !strcmp(stored, run->config_key.hex);
     if (!same)
         irb_fail(err, IRB_E_USAGE,
                  "%s: holds another experiment (config key %.8s, this one is %.8s); choose another "
                  "--out or remove it",
-                 run->dir, stored, key.hex);
+                 run->dir, stored, run->config_key.hex);
     free(stored);
-    return same && irb_provenance_store_host(run, err);
+    return same;
+}
+
+/* Opening for writing converts an old file: before that, one of another experiment is refused and
+ * left as it is. What can't be read is for that opening to judge. */
+static bool holds_no_other(const struct irb_run *run, struct irb_error *err)
+{
+    struct irb_error unreadable;
+    struct irb_store *store = irb_store_open(run->dir, false, &unreadable);
+    bool ok = !store || holds_this(run, store, err);
+    irb_store_close(store);
+    return ok;
+}
+
+/* Opens the run folder; refuses one that holds another experiment. */
+static bool open_results(struct irb_run *run, struct irb_error *err)
+{
+    run->dir = run->options->out
+                   ? irb_strdup(run->options->out)
+                   : irb_asprintf("results/runs/%s-%.8s", run->config->name, run->config_key.hex);
+    return irb_fs_make_dirs(run->dir, err) && holds_no_other(run, err) &&
+           (run->store = irb_store_open(run->dir, true, err)) && holds_this(run, run->store, err) &&
+           irb_provenance_store_host(run, err);
 }
 
 /* Keys of all frames, so that scoring can run where there is no OpenGL. */

@@ -149,4 +149,22 @@ if "$IRBENCH" doctor >/dev/null 2>&1; then
     expect 2 "was rendered with another shader_hash" "$IRBENCH" run "$work/good.yaml" --shader-dir "$work/other-shaders" --out "$work/good"
     expect 2 "holds another experiment" "$IRBENCH" run "$work/good.yaml" --out "$work/good" --set seed=9
 fi
+
+# --- a run of schema 1 that is another experiment stays what it is ---
+if python=$(command -v python3); then
+    mkdir "$work/old"
+    "$python" - "$work/old/results.sqlite" <<'PY'
+import sqlite3, sys
+db = sqlite3.connect(sys.argv[1])
+db.executescript('CREATE TABLE meta(name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;'
+                 'CREATE TABLE stage_time(trial INTEGER, frame INTEGER, stage TEXT, ms REAL);'
+                 'PRAGMA application_id = 1769103970; PRAGMA user_version = 1;'
+                 "INSERT INTO meta VALUES('config_key', 'another');")
+PY
+    expect 2 "holds another experiment" "$IRBENCH" run "$work/good.yaml" --out "$work/old"
+    check "it is of schema 1 still" "$python" -c '
+import sqlite3, sys
+assert sqlite3.connect(sys.argv[1]).execute("PRAGMA user_version").fetchone() == (1,)
+' "$work/old/results.sqlite"
+fi
 finish
