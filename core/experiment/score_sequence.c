@@ -147,16 +147,7 @@ static double aggregate(const struct irb_frame_scores *frames, int count, int me
         squares += value * value;
         n++;
     }
-    if (!n)
-        return NAN;
-    switch (irb_metric_aggregate(metric)) {
-    case IRB_AGGREGATE_ROOT_MEAN_SQUARE:
-        return sqrt(squares / n);
-    case IRB_AGGREGATE_SUM:
-        return sum;
-    default:
-        return sum / n;
-    }
+    return irb_metric_of_frames(metric, sum, squares, n);
 }
 
 /* A mean over the frames that have a value. */
@@ -218,14 +209,9 @@ static void aggregate_all(struct irb_frame_scores *whole, const struct irb_frame
         for (int i = 0; i < IRB_REGION_METRIC_COUNT; i++)
             whole->regions[r][i] =
                 aggregate(frames, count, irb_region_metrics[i], &frames->regions[r][i]);
-    /* sum v / sum r = 1 + sum (v - r) / sum r */
-    if (constants->mean_indirect > 0)
-        v[IRB_METRIC_indirect_energy_ratio] =
-            1 + v[IRB_METRIC_indirect_bias] / constants->mean_indirect;
-    if (constants->mean_full > 0)
-        v[IRB_METRIC_full_energy_ratio] = 1 + v[IRB_METRIC_full_bias] / constants->mean_full;
-    v[IRB_METRIC_indirect_psnr] = irb_psnr(v[IRB_METRIC_indirect_rmse], constants->peak_indirect);
-    v[IRB_METRIC_full_psnr] = irb_psnr(v[IRB_METRIC_full_rmse], constants->peak_full);
+    irb_metrics_derive(
+        v, &(struct irb_sequence_scale){constants->mean_indirect, constants->mean_full,
+                                        constants->peak_indirect, constants->peak_full});
     v[IRB_METRIC_lag] = sequence_lag(frames, count, constants->mean_indirect);
 }
 

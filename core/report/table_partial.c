@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/report/table_partial.h"
-#include "core/score/metrics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -74,23 +73,14 @@ static void aggregate(struct irb_table_row *row, const struct frames_read *read,
                       struct irb_store *store)
 {
     const char *scene = row->trial->scene;
+    const struct irb_sequence_scale scale = {
+        constant(store, scene, "mean_indirect"), constant(store, scene, "mean_full"),
+        constant(store, scene, "psnr_peak_indirect"), constant(store, scene, "psnr_peak_full")};
     double *m = row->metrics;
-    for (int i = 0; i < IRB_METRIC_COUNT; i++) {
-        int n = read->count[i];
-        enum irb_aggregate how = irb_metric_aggregate(i);
-        if (n)
-            m[i] = how == IRB_AGGREGATE_SUM                ? read->sum[i]
-                   : how == IRB_AGGREGATE_ROOT_MEAN_SQUARE ? sqrt(read->squares[i] / n)
-                                                           : read->sum[i] / n;
-    }
-    m[IRB_METRIC_indirect_energy_ratio] =
-        1 + m[IRB_METRIC_indirect_bias] / constant(store, scene, "mean_indirect");
-    m[IRB_METRIC_full_energy_ratio] =
-        1 + m[IRB_METRIC_full_bias] / constant(store, scene, "mean_full");
-    m[IRB_METRIC_indirect_psnr] =
-        irb_psnr(m[IRB_METRIC_indirect_rmse], constant(store, scene, "psnr_peak_indirect"));
-    m[IRB_METRIC_full_psnr] =
-        irb_psnr(m[IRB_METRIC_full_rmse], constant(store, scene, "psnr_peak_full"));
+    for (int i = 0; i < IRB_METRIC_COUNT; i++)
+        if (read->count[i])
+            m[i] = irb_metric_of_frames(i, read->sum[i], read->squares[i], read->count[i]);
+    irb_metrics_derive(m, &scale);
 }
 
 bool irb_table_partial_read(struct irb_table_row *row, struct irb_store *store,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/score/metric_list.h"
+#include "core/score/metrics.h"
 
 #include <math.h>
 #include <string.h>
@@ -77,4 +78,35 @@ enum irb_aggregate irb_metric_aggregate(int metric)
     default:
         return IRB_AGGREGATE_MEAN;
     }
+}
+
+double irb_metric_of_frames(int metric, double sum, double squares, int n)
+{
+    if (!n)
+        return NAN;
+    switch (irb_metric_aggregate(metric)) {
+    case IRB_AGGREGATE_ROOT_MEAN_SQUARE:
+        return sqrt(squares / n);
+    case IRB_AGGREGATE_SUM:
+        return sum;
+    default:
+        return sum / n;
+    }
+}
+
+/* sum v / sum r = 1 + sum (v - r) / sum r */
+static double energy_ratio(double bias, double mean_reference)
+{
+    return mean_reference > 0 ? 1 + bias / mean_reference : NAN;
+}
+
+void irb_metrics_derive(double values[IRB_METRIC_COUNT], const struct irb_sequence_scale *scale)
+{
+    values[IRB_METRIC_indirect_energy_ratio] =
+        energy_ratio(values[IRB_METRIC_indirect_bias], scale->mean_indirect);
+    values[IRB_METRIC_full_energy_ratio] =
+        energy_ratio(values[IRB_METRIC_full_bias], scale->mean_full);
+    values[IRB_METRIC_indirect_psnr] =
+        irb_psnr(values[IRB_METRIC_indirect_rmse], scale->peak_indirect);
+    values[IRB_METRIC_full_psnr] = irb_psnr(values[IRB_METRIC_full_rmse], scale->peak_full);
 }

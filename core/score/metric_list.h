@@ -151,6 +151,17 @@ const char *irb_better_name(enum irb_better better);
  * alike. PSNR, energy ratios and the lag are made of others instead. */
 enum irb_aggregate { IRB_AGGREGATE_MEAN, IRB_AGGREGATE_ROOT_MEAN_SQUARE, IRB_AGGREGATE_SUM };
 enum irb_aggregate irb_metric_aggregate(int metric);
+/* Of n frames' values, their sum and that of their squares; NaN for none. */
+double irb_metric_of_frames(int metric, double sum, double squares, int n);
+
+/* Of a sequence's reference images: the mean (<= 0 or NaN where it is black or unknown) and PSNR's
+ * peak. */
+struct irb_sequence_scale {
+    double mean_indirect, mean_full, peak_indirect, peak_full;
+};
+/* What a sequence has from others of its values: PSNR from the RMSE, energy ratios from the bias,
+ * NaN without a mean. */
+void irb_metrics_derive(double values[IRB_METRIC_COUNT], const struct irb_sequence_scale *scale);
 
 /* How far a value is from the best: smaller is better, whatever the metric; NaN stays NaN, and a
  * metric that ranks nothing gives 0. */

@@ -116,6 +116,23 @@ static void test_rows(void **state)
     free(text);
 }
 
+/* Of a black scene there is no ratio to the reference. */
+static void test_black(void **state)
+{
+    struct irb_error err = {0};
+    char *text, row[8192];
+    REQUIRE_OK(irb_store_set_meta(*state, "scene/box/mean_indirect", "0", &err));
+    REQUIRE_OK(irb_store_set_meta(*state, "scene/box/psnr_peak_indirect", "0", &err));
+    text = write_table(*state, IRB_TABLE_JSON, false);
+    assert_true(json_item(text, 0, row, sizeof row));
+    expect_member(row, "indirect_rmse", sqrt(12.5));
+    expect_member(row, "indirect_energy_ratio", NAN);
+    expect_member(row, "indirect_psnr", NAN);
+    free(text);
+    REQUIRE_OK(irb_store_set_meta(*state, "scene/box/mean_indirect", "8", &err));
+    REQUIRE_OK(irb_store_set_meta(*state, "scene/box/psnr_peak_indirect", "10", &err));
+}
+
 static void test_names(void **state)
 {
     char *text = write_table(*state, IRB_TABLE_TEXT, false);
@@ -179,6 +196,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_black),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_first_line),
     };
