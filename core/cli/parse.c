@@ -311,7 +311,7 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--stage", NULL, "STAGE", "prepare, render, score or all (default)", set_stage},
     {"--minutes", NULL, "N",
      "run, tradeoff: begin no new round (a pass with one seed) after N minutes but each scene's "
-     "first",
+     "first, and one that is missing in any case",
      set_minutes},
     {"--keep", NULL, "WHICH", "images to keep: some (first, middle, worst, last) or all", set_keep},
     {"--debug-layers", NULL, NULL,

@@ -72,7 +72,8 @@ static int rounds_left(struct scene_run *scene, int rounds)
     return left;
 }
 
-/* Those that there is time for; the first one in any case. */
+/* Those that there is time for; the first one in any case, and one that is missing where this
+ * process has rendered none: else a run that takes long to prepare would never go on. */
 static bool render_rounds(struct scene_run *scene, int rounds, int left, struct irb_error *err)
 {
     struct irb_run *run = scene->passes.run;
@@ -83,7 +84,7 @@ static bool render_rounds(struct scene_run *scene, int rounds, int left, struct 
     for (int i = 0; ok && i < rounds; i++) {
         if (!find_round(scene, i, &round))
             continue;
-        if (i && irb_clock_s() >= run->deadline_s) {
+        if (i && run->rounds_rendered && irb_clock_s() >= run->deadline_s) {
             left_out++;
             continue;
         }
@@ -91,6 +92,7 @@ static bool render_rounds(struct scene_run *scene, int rounds, int left, struct 
         round.count = left;
         round.since_s = since_s;
         ok = irb_round_render(&round, &scene->passes, err);
+        run->rounds_rendered += ok;
     }
     irb_log_progress_done(run->log);
     if (ok && left_out)

@@ -180,7 +180,7 @@ bool irb_run_experiment(const struct irb_config *config, const struct irb_run_op
     run.config = config;
     irb_run_work(&run, IRB_WORK_STARTUP);
     struct irb_error late;
-    if (opened && !irb_run_end(&run, ok && !run.rounds_left_out, ok ? err : &late))
+    if (opened && !irb_run_end(&run, ok && irb_run_is_whole(&run), ok ? err : &late))
         ok = false;
     if (opened && (ok || (err && err->code == IRB_E_INTERRUPTED))) {
         if (!irb_provenance_store_seconds(&run, ok ? err : &late))

@@ -99,6 +99,28 @@ bool irb_run_rendered_trials(struct irb_config *rendered, const struct irb_run *
     return true;
 }
 
+static bool trial_is_whole(const struct irb_run *run, const char *scene, const char *trial,
+                           int seed)
+{
+    int64_t id = irb_store_trial_find(run->store, scene, trial, seed);
+    bool whole = id > 0 && irb_store_has_scores(run->store, id, -1);
+    for (int r = 0; whole && r < run->config->repeats; r++)
+        whole = irb_store_has_repeat(run->store, id, r, run->config->render.frames - 1);
+    return whole;
+}
+
+bool irb_run_is_whole(const struct irb_run *run)
+{
+    const struct irb_config *config = run->config;
+    bool whole = true;
+    for (int s = 0; whole && s < config->scene_count; s++)
+        for (int t = 0; whole && t < config->trial_count; t++)
+            for (int i = 0; whole && i < config->seed_count; i++)
+                whole = trial_is_whole(run, config->scenes[s].name, config->trials[t].name,
+                                       config->seeds[i]);
+    return whole;
+}
+
 void irb_run_trials_free(struct irb_config *selected)
 {
     for (int i = 0; i < selected->trial_count; i++)

@@ -16,6 +16,9 @@ bool irb_run_trials(struct irb_config *selected, const struct irb_config *config
  * A warning says how many are not. All where none is. The list is owned, what is in it borrowed. */
 bool irb_run_rendered_trials(struct irb_config *rendered, const struct irb_run *run,
                              const struct irb_sequence *sequence, struct irb_error *err);
+/* Whether all of the run's config is there: of every scene, trial and seed all repeats, and the
+ * scores of the sequence. */
+bool irb_run_is_whole(const struct irb_run *run);
 void irb_run_trials_free(struct irb_config *selected);
 
 #endif

@@ -30,7 +30,8 @@ struct irb_run_options {
     unsigned stages;         /* enum irb_stage */
     const char *const *only; /* names of the trials to run; NULL or only_count 0 = all */
     int only_count;
-    double minutes; /* after these no new round begins but each scene's first; 0 = no limit */
+    double minutes; /* after these no new round begins but each scene's first, and one that is
+                       missing in any case; 0 = no limit */
     bool keep_all;  /* keep every frame's image, not only first, middle, worst and last */
     const char *command_line;
     struct irb_log *log;               /* may be NULL */
@@ -58,6 +59,7 @@ struct irb_run {
     char *dir, *cache;       /* owned */
     struct irb_progress progress;
     double deadline_s;   /* by irb_clock_s(); infinite without a limit */
+    int rounds_rendered; /* by this process */
     int rounds_left_out; /* for want of time */
     double seconds[IRB_WORK_COUNT];
     enum irb_work working; /* what the clock is running for */
@@ -71,11 +73,11 @@ void irb_run_begin(struct irb_run *run, enum irb_progress_kind kind, const char 
     __attribute__((format(printf, 3, 4)));
 /* `units` of it have been made. Progress goes to the log and, at most once a second, to meta
  * "progress": {"fraction": 0.43, "left_s": 730, "what": "...", "at": "2026-01-31T12:00:00Z",
- * "state": "running" or "stopped"}; "done" when all is. */
+ * "state": "running" or "stopped"}; "done" when all stages of all trials are. */
 void irb_run_step(struct irb_run *run, double units);
 /* While a unit is made that reports its own progress to the log: that counts as its share. */
 void irb_run_watch(struct irb_run *run, bool on);
-/* The end of the run, whole or not. */
+/* The end of the command; `whole` where with it the run is. */
 bool irb_run_end(struct irb_run *run, bool whole, struct irb_error *err);
 bool irb_run_stopped(const struct irb_run *run, struct irb_error *err);
 /* Creates the GL context if there is none yet. */

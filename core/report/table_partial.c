@@ -169,8 +169,12 @@ void irb_table_progress(struct irb_store *store, struct irb_str *out)
         const char *at = member(json, "at"), *what = member(json, "what");
         bool running = !strncmp(member(json, "state"), "running", 7);
         bool silent = running && age_s(at) > silence_s;
-        irb_str_printf(out, "%s: %.0f %%", running && !silent ? "running" : "not finished",
-                       floor(100 * strtod(member(json, "fraction"), NULL)));
+        double percent = floor(100 * strtod(member(json, "fraction"), NULL));
+        irb_str_printf(out, running && !silent ? "running: " : "not finished: ");
+        if (!running && percent >= 100) /* the command was, the run is not */
+            irb_str_printf(out, "stages or trials are left");
+        else
+            irb_str_printf(out, "%.0f %%", percent);
         if (running && !silent)
             print_left(strtod(member(json, "left_s"), NULL), out);
         irb_str_printf(out, " (%.*s%s%.*s)\n", (int)strcspn(what, "\""), what,

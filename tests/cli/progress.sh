@@ -82,12 +82,38 @@ grep -q '^not finished: [0-9]* % (' "$work/out" && grep -Eq '^  rsm-clustering:c
     cat "$work/out"
     failures=$((failures + 1))
 }
+# Again no time: one round more, else it would never end.
+check "another moment" "$IRBENCH" run "$work/long.yaml" --minutes 0.00001 --out "$work/parts"
+checks=$((checks + 1))
+[ "$(db rounds "$work/parts")" = '3 0 40
+8 0 20' ] || {
+    echo "FAIL: the rounds of two moments are"
+    db rounds "$work/parts"
+    failures=$((failures + 1))
+}
 check "the rest" "$IRBENCH" run "$work/long.yaml" --minutes 60 --out "$work/parts"
 same "in parts or at once" "$work/whole" "$work/parts"
 expect 2 "--minutes: expected a number above 0; found '0'" \
     "$IRBENCH" run "$work/long.yaml" --minutes 0
 expect 2 "--minutes: expected a number above 0; found 'soon'" \
     "$IRBENCH" run "$work/long.yaml" --minutes soon
+
+# Stages and trials one by one: a run is not finished before all of them are.
+head_of() { # head_of WHAT 'pattern' ARGUMENTS...: of the run "$work/pieces", run further with these
+    what=$1 pattern=$2
+    shift 2
+    check "$what" "$IRBENCH" run "$work/long.yaml" --out "$work/pieces" --set repeats=1 "$@"
+    checks=$((checks + 1))
+    "$IRBENCH" table "$work/pieces" 2>"$work/err" | head -1 | grep -Eq "$pattern" && return
+    echo "FAIL: $what: the table begins with"
+    "$IRBENCH" table "$work/pieces" | head -1
+    failures=$((failures + 1))
+}
+left='^not finished: stages or trials are left \((references of|render|score|pictures of|keep) '
+head_of "one trial" "$left" --only rsm-clustering:clusters=16
+head_of "the other one's frames" "$left" --stage render
+head_of "and its scores" '^Indirect|^ *$|^cornell|^scene' --stage score
+head_of "a stage again" '^Indirect|^ *$|^cornell|^scene' --stage render
 
 # Ctrl-C
 checks=$((checks + 2))

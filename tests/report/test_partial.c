@@ -189,6 +189,10 @@ static void test_first_line(void **state)
                  "{\"fraction\": 0.5000, \"left_s\": 9000, \"what\": \"score hall\", \"at\": "
                  "\"2026-01-31T12:00:00Z\", \"state\": \"running\", \"now\": \"%s\"}",
                  "not finished: 50 % (score hall; last heard of at 2026-01-31T12:00:00Z)");
+    expect_first(*state,
+                 "{\"fraction\": 1.0000, \"left_s\": 0, \"what\": \"render hall\", \"at\": \"%s\", "
+                 "\"state\": \"stopped\"}",
+                 "not finished: stages or trials are left (render hall)");
     expect_first(*state, "done", "");
 }
 
