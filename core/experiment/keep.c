@@ -19,7 +19,8 @@
 /* Error maps of one kept frame. */
 struct maps {
     struct irb_image relmse, flip_indirect, flip_full;
-    struct irb_image residual, temporal_flip; /* of the indirect image; 0 in the first frame */
+    struct irb_image residual, temporal_flip; /* of the indirect image; 0 in the first frame, empty
+                                                 where the frame before it is gone */
 };
 
 static void destroy_maps(struct maps *maps)
@@ -54,8 +55,7 @@ static bool make_maps(struct maps *maps, const struct irb_scored_frame *frame,
            flip_map(&full, target->flip_full, &maps->flip_full, err);
 }
 
-/* The maps between this frame and the one before it; `previous` is NULL where there is none, or
- * none any more. */
+/* The maps between this frame and the one before it; `previous` is NULL in the first one. */
 static bool make_temporal_maps(struct maps *maps, const struct irb_scored_frame *frame,
                                const struct irb_scored_frame *previous,
                                const struct irb_target_pair *targets,
@@ -89,7 +89,7 @@ static bool write_exr(const char *path, const struct irb_run *run,
                       const struct irb_target *target, const struct maps *maps,
                       const struct irb_debug_layers *debug, struct irb_error *err)
 {
-    enum { OWN = 10, MOST = IRB_FRAME_ATTRIBUTES + IRB_MAX_DEBUG_LAYERS + 1 };
+    enum { OWN = 10, TEMPORAL = 2, MOST = IRB_FRAME_ATTRIBUTES + IRB_MAX_DEBUG_LAYERS + 1 };
     struct irb_exr_layer layers[OWN + IRB_MAX_DEBUG_LAYERS] = {
         {"", "RGB", &frame->full},
         {"indirect", "RGB", &frame->indirect},
@@ -103,7 +103,8 @@ static bool write_exr(const char *path, const struct irb_run *run,
         {"temporal_flip", "Y", &maps->temporal_flip},
     };
     irb_debug_layer_name names[IRB_MAX_DEBUG_LAYERS];
-    int count = OWN + irb_debug_layers_append(debug, layers + OWN, names);
+    int own = maps->residual.data ? OWN : OWN - TEMPORAL;
+    int count = own + irb_debug_layers_append(debug, layers + own, names);
     struct irb_frame_provenance from;
     struct irb_debug_attributes of_debug;
     struct irb_exr_attribute attributes[MOST];
@@ -158,7 +159,8 @@ static bool has_frame_file(const struct irb_keep *keep, int trial, int frame)
     return there;
 }
 
-/* All maps of the trial's frame; the frame before it is read for them. */
+/* All maps of the trial's frame; the frame before it is read for them, and without its file there
+ * are none of what lies between the two. */
 static bool make_all_maps(struct maps *maps, const struct keep_frame *kept, int trial,
                           const struct irb_scored_frame *frame, struct irb_error *err)
 {
@@ -169,8 +171,9 @@ static bool make_all_maps(struct maps *maps, const struct keep_frame *kept, int 
         make_maps(maps, frame, &kept->targets->target, keep->constants, err) &&
         (!has_previous || irb_scored_frame_load(&previous, keep->run, &keep->trials[trial],
                                                 kept->frame - 1, &kept->targets->previous, err)) &&
-        make_temporal_maps(maps, frame, has_previous ? &previous : NULL, kept->targets,
-                           keep->constants, err);
+        ((kept->frame && !has_previous) ||
+         make_temporal_maps(maps, frame, has_previous ? &previous : NULL, kept->targets,
+                            keep->constants, err));
     irb_scored_frame_destroy(&previous);
     return ok;
 }
@@ -218,6 +221,17 @@ static bool is_kept(const struct irb_keep *keep, int trial, int frame)
     return is_wanted(keep, trial, frame) && has_frame_file(keep, trial, frame);
 }
 
+static void warn_of_gaps(const struct irb_keep *keep, int frame, const int *wanted, int count)
+{
+    for (int i = 0; frame && i < count; i++)
+        if (!has_frame_file(keep, wanted[i], frame - 1))
+            irb_warn(keep->run->log,
+                     "%s: %s: the file of frame %d is gone: frame %d is kept without the layers "
+                     "residual and temporal_flip",
+                     keep->sequence->entry->name, keep->trials[wanted[i]].trial->folder, frame - 1,
+                     frame);
+}
+
 static bool keep_frame(const struct irb_keep *keep, int frame, struct irb_target_pair *targets,
                        int *wanted, struct irb_error *errs, struct irb_error *err)
 {
@@ -229,6 +243,7 @@ static bool keep_frame(const struct irb_keep *keep, int frame, struct irb_target
             wanted[count++] = t;
     if (!count)
         return true;
+    warn_of_gaps(keep, frame, wanted, count);
     if (!irb_target_pair_load(targets, keep->run, keep->sequence, keep->constants, frame, err) ||
         !irb_target_prepare(&targets->target, keep->sequence->entry, keep->constants, threads, err))
         return false;

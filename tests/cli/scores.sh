@@ -141,6 +141,30 @@ holds "the share of 16 pixels" "16 / 1200 <= row['masked_share'] <= 16 / 300"
 holds "a region without a pixel has no score" "row.get('full_rmse@patch') is None and row.get('full_flip@patch') is None"
 holds "the other pixels count" "row['indirect_rmse'] > 0 and row['indirect_rmse'] != before['indirect_rmse']"
 
+# A frame that is kept after the one before it has gone: without the layers that need both.
+for stage in prepare render; do
+    check "$stage" "$IRBENCH" run "$work/scores.yaml" --out "$work/gap" --stage $stage
+done
+cp -r "$work/gap/cornell" "$work/frames"
+check "scored" "$IRBENCH" run "$work/scores.yaml" --out "$work/gap" --stage score
+kept="$work/gap/$trial/image-0007.exr"
+layers() { # layers OF WHICH: how many channels of the file have that name
+    head -c 4096 "$1" | grep -ac "$2"
+}
+checks=$((checks + 2))
+[ "$(layers "$kept" 'residual\.Y')$(layers "$kept" 'temporal_flip\.Y')" = 11 ] || {
+    echo "FAIL: a kept frame lacks the layers residual and temporal_flip"
+    failures=$((failures + 1))
+}
+cp "$work/frames"/direct-* "$work/gap/cornell"
+cp "$work/frames/${trial#*/}/frame-0007.exr" "$work/gap/$trial"
+check "kept again" "$IRBENCH" run "$work/scores.yaml" --out "$work/gap" --stage score
+grep -q 'warning: cornell: .*: the file of frame 6 is gone: frame 7 is kept without' "$work/err" &&
+    [ "$(layers "$kept" 'residual\.Y')$(layers "$kept" 'temporal_flip\.Y')" = 00 ] || {
+    echo "FAIL: a frame without the one before it has layers of both, or there is no warning"
+    failures=$((failures + 1))
+}
+
 # A light at rest: no lag.
 sed 's/^    - {frame: 7.*//' "$work/scores.yaml" >"$work/rest.yaml"
 check "a light at rest" "$IRBENCH" run "$work/rest.yaml" --out "$work/rest"
