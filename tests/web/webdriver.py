@@ -97,7 +97,7 @@ class Browser:
                                          headers={"Content-Type": "application/json"})
         opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
         try:
-            with opener.open(request, timeout=120) as answer:
+            with opener.open(request, timeout=300) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             value = json.load(error)["value"]
@@ -119,7 +119,7 @@ class Browser:
                   "(async (...arguments_) => {%s})(...arguments).then(done, (e) => done('error: ' + e));" % script)
         return self.command("POST", "/execute/async", {"script": script, "args": list(arguments)})
 
-    def until(self, script, *arguments, seconds=30):
+    def until(self, script, *arguments, seconds=120):
         """Runs the function body until it returns something true, and returns that."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
