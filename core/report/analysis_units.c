@@ -50,7 +50,6 @@ static bool is_of_frames(int metric)
     case M(uncovered_flux):
     case M(clamped_light):
     case M(reference_noise):
-    case M(reference_noise_rmse):
     case M(reference_flicker):
     case M(frame_ms_p95):
     case M(frame_ms_worst):
@@ -282,14 +281,11 @@ static struct irb_interval without_noise(const struct irb_analysis_trial *trial,
 {
     double noise = irb_trial_value(trial, M(reference_noise));
     double floor = irb_trial_value(trial, M(reference_flicker));
-    double rmse = irb_trial_value(trial, M(reference_noise_rmse));
     double share = noise / irb_trial_value(trial, M(indirect_relmse)); /* of the squared error */
     double flip_noise = irb_trial_value(trial, M(indirect_flip_noise));
     if (metric == M(indirect_relmse) && noise > 0)
         return irb_interval_less_noise(i, noise, false);
-    if (metric == M(indirect_rmse) && rmse > 0)
-        return irb_interval_less_noise(i, rmse * rmse, true);
-    if (metric == M(indirect_rmse) && share > 0) /* runs of before that metric */
+    if (metric == M(indirect_rmse) && share > 0)
         return irb_interval_less_noise(i, fmin(share, 1) * i.value * i.value, true);
     if (metric == M(indirect_flicker) && floor > 0)
         return irb_interval_less_noise(i, floor * floor, true);
