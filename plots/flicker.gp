@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Flicker of each trial with its interval, and beside it the share of pixels that pop: for each scene
-# a panel, a row a trial. The dashed line is the flicker that the reference's own noise makes: what lies
-# near it cannot be told from none.
+# a panel, a row a trial. The dashed line is what the flicker that the reference's own noise makes stays
+# below, by an unknown amount.
 #
 #     gnuplot -e "csv='flicker.csv'; out='flicker.svg'" plots/flicker.gp
 #
@@ -26,7 +26,7 @@ do for [m=1:methods] {
     do for [i=1:items] { if (item_method[i] == m) { key_item[m] = i } }
 }
 note = "Flicker is relative to the mean of the reference. " . \
-    "Dashed: what the reference's own noise makes. Bars: 95 % intervals. " . \
+    "Dashed: what the reference's own noise stays below. Bars: 95 % intervals. " . \
     "Pops: pixels whose error jumps by more than 10 % from one frame to the next."
 if (sum [i=1:rows] (row_scene[i] && X[i] == 0)) { note = note . zero_note }
 load folder . "rows.gp"

@@ -14,9 +14,10 @@
  * and its blocks are means: that interval is moved to the value by their ratio.
  *
  * The reference has noise of its own, which adds to an error and never takes from it on average. An
- * error's interval is therefore extended downwards by it: relMSE by reference_noise, RMSE by the
- * same share of its square, FLIP by indirect_flip_noise, flicker by reference_flicker (squares
- * again). Ratios are of the errors as measured: the same noise in both draws a ratio towards 1.
+ * error's interval is therefore extended downwards by it: relMSE by reference_noise, RMSE by
+ * reference_noise_rmse (squares again), FLIP by indirect_flip_noise; where these were not stored,
+ * by nothing. Flicker's is not: reference_flicker is what the noise stays below, by an unknown
+ * amount. Ratios are of the errors as measured: the same noise in both draws a ratio towards 1.
  */
 #ifndef IRB_REPORT_ANALYSIS_H
 #define IRB_REPORT_ANALYSIS_H

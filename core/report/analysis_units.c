@@ -50,6 +50,7 @@ static bool is_of_frames(int metric)
     case M(uncovered_flux):
     case M(clamped_light):
     case M(reference_noise):
+    case M(reference_noise_rmse):
     case M(reference_flicker):
     case M(frame_ms_p95):
     case M(frame_ms_worst):
@@ -280,15 +281,12 @@ static struct irb_interval without_noise(const struct irb_analysis_trial *trial,
                                          struct irb_interval i)
 {
     double noise = irb_trial_value(trial, M(reference_noise));
-    double floor = irb_trial_value(trial, M(reference_flicker));
-    double share = noise / irb_trial_value(trial, M(indirect_relmse)); /* of the squared error */
+    double noise_rmse = irb_trial_value(trial, M(reference_noise_rmse));
     double flip_noise = irb_trial_value(trial, M(indirect_flip_noise));
     if (metric == M(indirect_relmse) && noise > 0)
         return irb_interval_less_noise(i, noise, false);
-    if (metric == M(indirect_rmse) && share > 0)
-        return irb_interval_less_noise(i, fmin(share, 1) * i.value * i.value, true);
-    if (metric == M(indirect_flicker) && floor > 0)
-        return irb_interval_less_noise(i, floor * floor, true);
+    if (metric == M(indirect_rmse) && noise_rmse > 0)
+        return irb_interval_less_noise(i, noise_rmse * noise_rmse, true);
     if (metric == M(indirect_flip) && flip_noise > 0)
         return irb_interval_less_noise(i, flip_noise, false);
     return i;

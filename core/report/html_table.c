@@ -112,7 +112,7 @@ static void reference_line(struct irb_str *out, const struct irb_analysis_scene 
     }
     irb_str_printf(out,
                    "<p class=\"small muted\">The reference's own noise: %s (relMSE); its "
-                   "flicker: %s.</p>\n",
+                   "flicker: at most %s.</p>\n",
                    noise, flicker);
 }
 

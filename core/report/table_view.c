@@ -8,14 +8,15 @@
 #define M(name) IRB_METRIC_##name
 
 /* The indirect image is what is ranked; the full image and the whole solution come after it. The
- * reference's noise is known as a relMSE of the indirect image, so that this decides for the other
- * errors of the same image too. */
+ * reference's noise is known as a relMSE and as an RMSE of the indirect image; relMSE decides for
+ * FLIP too. Of flicker no more is known than a bound that the noise stays below: it ranks nothing
+ * lower. */
 const struct irb_column irb_columns[IRB_COLUMNS] = {
     {M(indirect_relmse), "relMSE", 3, M(reference_noise), M(indirect_relmse), false, true},
-    {M(indirect_rmse), "RMSE", 3, M(reference_noise), M(indirect_relmse), false, false},
+    {M(indirect_rmse), "RMSE", 3, M(reference_noise_rmse), M(indirect_rmse), false, false},
     {M(indirect_flip), "FLIP", 3, M(reference_noise), M(indirect_relmse), false, true},
     {M(indirect_energy_ratio), "energy", 4, -1, -1, false, true},
-    {M(indirect_flicker), "flicker", 3, M(reference_flicker), M(indirect_flicker), false, true},
+    {M(indirect_flicker), "flicker", 3, -1, -1, false, true},
     {M(indirect_pop_share), "pops", 3, -1, -1, false, false},
     {M(full_flip), "full FLIP", 3, -1, -1, false, false},
     {M(solution_relmse), "solution relMSE", 3, -1, -1, false, false},
@@ -172,8 +173,8 @@ void irb_table_reference(const struct irb_table_group *group, struct irb_str *ou
     irb_table_number(noise, largest(group, M(reference_noise)), 3);
     irb_table_number(flicker, largest(group, M(reference_flicker)), 3);
     const char *choices = group->rows->choices;
-    irb_str_printf(out, "reference: noise %s (relMSE), flicker floor %s%s%s", noise, flicker,
-                   *choices ? "; " : "", choices);
+    irb_str_printf(out, "reference: noise %s (relMSE), flicker floor %s%s%s%s", noise,
+                   strcmp(flicker, "-") ? "<= " : "", flicker, *choices ? "; " : "", choices);
 }
 
 void irb_table_foot_seeds(const struct irb_table_data *data, bool spread, struct irb_str *out)

@@ -48,7 +48,7 @@ void irb_table_number(char out[32], double value, int digits);
 void irb_table_spread(char out[32], const struct irb_column *column,
                       const struct irb_table_row *row);
 
-/* "reference: noise ..., flicker floor ...; how the scene was scored" */
+/* "reference: noise ..., flicker floor <= ...; how the scene was scored" */
 void irb_table_reference(const struct irb_table_group *group, struct irb_str *out);
 
 /* What the marks mean (`best` says how the best value is marked), what is compared with what, over

@@ -87,8 +87,10 @@ bool irb_interval_contains(const struct irb_interval *interval, double x);
  * noise)) for the root of a mean square (root: RMSE). noise >= 0 is a mean square in either case,
  * and normalised as the error is (relMSE's is the metric reference_noise). NaN or negative: taken
  * as 0. value and high stay: the value is what was measured, and taking off nothing is the safe
- * side for high. For mean squares and their roots only; FLIP and mean absolute errors do not add
- * like this. */
+ * side for high. That is for mean squares and their roots: FLIP and mean absolute errors do not add
+ * like this. Where by how much the noise raises such an error has been measured (FLIP's is the
+ * metric indirect_flip_noise, by extrapolation), that amount may be taken off likewise, root =
+ * false. */
 struct irb_interval irb_interval_less_noise(struct irb_interval interval, double noise, bool root);
 
 #endif

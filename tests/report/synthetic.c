@@ -15,14 +15,23 @@ static bool fill_rsm(struct irb_store *store, int64_t trial, struct irb_error *e
             return false;
     }
     const struct irb_store_value whole[] = {
-        {"indirect_relmse", 0.04},  {"indirect_rmse", 0.2},
-        {"indirect_bias", -0.01},   {"indirect_energy_ratio", 0.97},
-        {"indirect_flip", 0.125},   {"indirect_flicker", 0.003},
-        {"reference_noise", 0.001}, {"reference_flicker", 0.002},
-        {"uncovered_flux", 0.25},   {"clamped_light", 0},
-        {"lost_energy", 0.125},     {"non_finite", 0},
-        {"claim_rmse", NAN},        {"a_metric_of_tomorrow", 1},
-        {"full_flip@door", 0.5},    {"lag_error@3", 1},
+        {"indirect_relmse", 0.04},
+        {"indirect_rmse", 0.2},
+        {"indirect_bias", -0.01},
+        {"indirect_energy_ratio", 0.97},
+        {"indirect_flip", 0.125},
+        {"indirect_flicker", 0.003},
+        {"reference_noise", 0.001},
+        {"reference_noise_rmse", 0.025},
+        {"reference_flicker", 0.002},
+        {"uncovered_flux", 0.25},
+        {"clamped_light", 0},
+        {"lost_energy", 0.125},
+        {"non_finite", 0},
+        {"claim_rmse", NAN},
+        {"a_metric_of_tomorrow", 1},
+        {"full_flip@door", 0.5},
+        {"lag_error@3", 1},
         {"of_tomorrow@door", 1},
     };
     /* a frame's own scores must not be taken for the sequence's */
@@ -39,9 +48,11 @@ static bool fill_all(struct irb_store *store, int64_t trial, struct irb_error *e
             return false;
     }
     const struct irb_store_value whole[] = {
-        {"indirect_relmse", 0.0005},  {"indirect_rmse", 0.02},    {"indirect_energy_ratio", 1.02},
-        {"indirect_flicker", 0.001},  {"reference_noise", 0.001}, {"reference_flicker", 0.002},
-        {"indirect_flip", 0.0625},    {"uncovered_flux", 0},      {"non_finite", 0},
+        {"indirect_relmse", 0.0005},     {"indirect_rmse", 0.02},
+        {"indirect_energy_ratio", 1.02}, {"indirect_flicker", 0.001},
+        {"reference_noise", 0.001},      {"reference_flicker", 0.002},
+        {"reference_noise_rmse", 0.025}, {"indirect_flip", 0.0625},
+        {"uncovered_flux", 0},           {"non_finite", 0},
         {"indirect_rmse@wall", 0.75},
     };
     return irb_store_scores(store, trial, -1, whole, COUNT(whole), err);
