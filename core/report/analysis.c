@@ -194,6 +194,7 @@ static bool read_seed(struct irb_analysis *analysis, const struct irb_table_row 
     struct irb_analysis_seed *seed = &trial->seeds[trial->seed_count++];
     seed->seed = row->trial->seed;
     memcpy(seed->values, row->metrics, sizeof seed->values);
+    trial->frames = row->frames; /* of all its seeds: see is_comparable() */
     return irb_store_read_scores(store, row->trial->id, read_score, seed, err) &&
            read_times(analysis, seed, store, row->trial->id, err);
 }
@@ -230,6 +231,16 @@ static void measure_all(const struct irb_analysis *analysis, struct irb_analysis
             irb_trial_measure(trial, irb_ranked_metrics[i], analysis->confidence);
 }
 
+/* Of a run that goes on: trials with fewer frames than another one of their scene. */
+static void find_partial(struct irb_analysis_scene *scene)
+{
+    int most = 0;
+    for (int t = 0; t < scene->trial_count; t++)
+        most = scene->trials[t].frames > most ? scene->trials[t].frames : most;
+    for (int t = 0; t < scene->trial_count; t++)
+        scene->trials[t].partial = scene->trials[t].frames < most;
+}
+
 /* Of a run that goes on: whether a seed has as many frames as the trial's most complete one. The
  * tables leave out the others too. */
 static bool is_comparable(const struct irb_table_data *data, const struct irb_table_row *row)
@@ -259,6 +270,8 @@ bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, d
         irb_analysis_destroy(analysis);
         return false;
     }
+    for (int s = 0; s < analysis->scene_count; s++)
+        find_partial(&analysis->scenes[s]);
     for_each_trial(analysis, pad_stages);
     for_each_trial(analysis, measure_all);
     return true;

@@ -7,7 +7,12 @@
  * IRB_INTERVAL_LEAST_UNITS of them; else, of times, a whole round of the sequence (seed and
  * repeat); else a block of frames that follow one another (frames themselves are not independent);
  * else there is none and no interval. Seeds stand for all that a method draws at random; blocks
- * tell from frame to frame only, and therefore speak of this sequence alone.
+ * tell from frame to frame only, and therefore speak of this sequence alone. Units that are all
+ * equal, in one trial or in both of a pair, are none: seeds of a method that draws nothing would
+ * make an interval of no width. Blocks of frames stand in for them. Of memory they are exact.
+ *
+ * While a run goes on, or after it was stopped, trials may have different frames of a scene. Those
+ * with fewer than another are compared with none: see partial.
  *
  * Values are those of the tables. Of metrics that are roots of means of squares (RMSE, flicker)
  * blocks are means of squares, and the interval's ends are the roots. A time's value is a median
@@ -61,6 +66,8 @@ struct irb_analysis_trial {
     int seed_count;
     struct irb_measure measures[IRB_METRIC_COUNT]; /* intervals: of irb_ranked_metrics */
     bool at_noise[IRB_METRIC_COUNT]; /* not above the reference's own noise: not ranked */
+    int frames;                      /* that its numbers are of; 0 where the run does not say */
+    bool partial; /* fewer than another trial of its scene has: not comparable with any */
 };
 
 struct irb_analysis_scene {
@@ -87,15 +94,15 @@ int irb_analysis_trial_find(const struct irb_analysis_scene *scene, const char *
 
 /* The metric of trial a over that of trial b of one scene, over the units that both have; its
  * value is the ratio of their means over the seeds that both have. NaN where there is none: a value
- * is missing, zero or negative, or they have no seed in common. */
+ * is missing, zero or negative, they have no seed in common, or one is partial. */
 struct irb_measure irb_analysis_ratio(const struct irb_analysis *analysis, int scene, int a, int b,
                                       int metric);
 
 /* How trial a stands to trial b by what is better in the metric: by the paired ratio, or, where the
- * best value is not 0 (energy ratios, dB) or a value is 0, by the paired difference of their
- * distances from the best. */
+ * best value is not 0 (energy ratios, dB) or a value is 0, by how far their means are from the
+ * best, as they are ranked. */
 enum irb_verdict {
-    IRB_VERDICT_UNKNOWN, /* no interval */
+    IRB_VERDICT_UNKNOWN, /* no interval, or one is partial */
     IRB_VERDICT_BETTER,
     IRB_VERDICT_WORSE,
     IRB_VERDICT_SAME, /* not distinguishable: the interval contains 1 (of a difference 0) */

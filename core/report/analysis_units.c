@@ -190,6 +190,17 @@ static double frame_mean(const struct common_seeds *c, int which, int frame, int
     return sum / c->count;
 }
 
+/* Whether units tell how much the metric varies. Equal ones (seeds of a method that draws nothing)
+ * do not, however many there are; but for memory, which neither a draw nor a frame changes. */
+static bool any_varies(const struct irb_paired *p, int trials, int metric)
+{
+    for (int w = 0; w < trials; w++)
+        for (int i = 1; i < p->count; i++)
+            if (p->of[w][i] != p->of[w][0])
+                return true;
+    return metric == M(gl_bytes);
+}
+
 static bool all_finite(const struct irb_paired *p, int trials)
 {
     for (int w = 0; w < trials; w++)
@@ -227,22 +238,22 @@ static double common_mean(const struct common_seeds *c, int which, int metric)
 struct irb_paired irb_paired_units(const struct irb_analysis_trial *a,
                                    const struct irb_analysis_trial *b, int metric)
 {
-    struct irb_paired p = {.unit = IRB_UNIT_SEED};
+    static void (*const made_of[])(struct irb_paired *, const struct common_seeds *, int) = {
+        [IRB_UNIT_SEED] = seeds_as_units,
+        [IRB_UNIT_REPEAT] = rounds_as_units,
+        [IRB_UNIT_BLOCK] = blocks_as_units,
+    };
+    struct irb_paired p = {.unit = IRB_UNIT_NONE};
     struct common_seeds c = find_common(a, b, metric);
-    bool largest = metric == M(frame_ms_worst); /* no mean of anything */
     for (int w = 0; w < c.trials; w++)
         p.mean[w] = common_mean(&c, w, metric);
-    seeds_as_units(&p, &c, metric);
-    if (p.count < IRB_INTERVAL_LEAST_UNITS && !largest) {
-        p.unit = IRB_UNIT_REPEAT;
-        rounds_as_units(&p, &c, metric);
+    bool enough = metric == M(frame_ms_worst); /* no mean of anything */
+    for (int unit = IRB_UNIT_SEED; !enough && unit <= IRB_UNIT_BLOCK; unit++) {
+        made_of[unit](&p, &c, metric);
+        enough = p.count >= IRB_INTERVAL_LEAST_UNITS && any_varies(&p, c.trials, metric);
+        if (enough && all_finite(&p, c.trials))
+            p.unit = (enum irb_unit)unit;
     }
-    if (p.count < IRB_INTERVAL_LEAST_UNITS && !largest) {
-        p.unit = IRB_UNIT_BLOCK;
-        blocks_as_units(&p, &c, metric);
-    }
-    if (p.count < IRB_INTERVAL_LEAST_UNITS || largest || !all_finite(&p, c.trials))
-        p.unit = IRB_UNIT_NONE;
     free(c.index);
     return p;
 }
@@ -260,6 +271,8 @@ void irb_paired_free(struct irb_paired *p)
  * factor, so that nothing that is positive gets a negative end. */
 static struct irb_interval at_value(struct irb_interval i, bool squares, double value)
 {
+    if (i.low == i.value && i.high == i.value)
+        return (struct irb_interval){value, value, value, i.units};
     if (squares) {
         i.value = sqrt(i.value);
         i.low = sqrt(i.low > 0 ? i.low : isnan(i.low) ? i.low : 0);
@@ -346,35 +359,70 @@ struct irb_measure irb_analysis_ratio(const struct irb_analysis *analysis, int s
                                       int metric)
 {
     const struct irb_analysis_trial *trials = analysis->scenes[scene].trials;
+    if (trials[a].partial || trials[b].partial)
+        return (struct irb_measure){{NAN, NAN, NAN, 0}, IRB_UNIT_NONE};
     struct irb_paired p = irb_paired_units(&trials[a], &trials[b], metric);
     struct irb_measure m = ratio_of(&p, analysis->confidence);
     irb_paired_free(&p);
     return m;
 }
 
-/* Of the units' distances from the best value, a's less b's. */
-static struct irb_interval difference_of(struct irb_paired *p, int metric, double confidence)
+/* On which side of 0 the mean of a - best + weight (b - best) lies, 0 where its interval contains
+ * that. false: there is no interval. */
+static bool side_of(const struct irb_paired *p, double best, double weight, double confidence,
+                    int *side)
 {
+    double *sums = malloc(((size_t)p->count + 1) * sizeof *sums);
+    if (!sums)
+        abort();
     for (int i = 0; i < p->count; i++)
-        p->of[0][i] =
-            irb_metric_badness(metric, p->of[0][i]) - irb_metric_badness(metric, p->of[1][i]);
-    return irb_mean_interval(p->of[0], p->count, confidence);
+        sums[i] = p->of[0][i] - best + weight * (p->of[1][i] - best);
+    struct irb_interval interval = irb_mean_interval(sums, p->count, confidence);
+    free(sums);
+    *side = (interval.low > 0) - (interval.high < 0);
+    return !isnan(interval.low) && !isnan(interval.high);
+}
+
+/* By the means, as the tables rank: with A and B what they are off the best, |A| < |B| where A - B
+ * and A + B lie on opposite sides of 0. Both must be told from 0, so that what is as far off on the
+ * other side is not taken for worse in more than 5 % of all cases (an intersection-union test:
+ * Berger 1982). Where the best is at an end, A and B have one sign, and A - B says it alone. */
+static enum irb_verdict compare_differences(const struct irb_paired *p, int metric,
+                                            double confidence)
+{
+    enum irb_better better = irb_metrics[metric].better;
+    int less, both = better == IRB_BETTER_HIGHER ? -1 : 1;
+    if (better == IRB_BETTER_NONE)
+        return IRB_VERDICT_SAME;
+    if (!side_of(p, better == IRB_BETTER_ONE, -1, confidence, &less) ||
+        ((better == IRB_BETTER_ONE || better == IRB_BETTER_ZERO) &&
+         !side_of(p, better == IRB_BETTER_ONE, 1, confidence, &both)))
+        return IRB_VERDICT_UNKNOWN;
+    return less * both < 0   ? IRB_VERDICT_BETTER
+           : less * both > 0 ? IRB_VERDICT_WORSE
+                             : IRB_VERDICT_SAME;
+}
+
+static enum irb_verdict compare_units(const struct irb_paired *p, int metric, double confidence)
+{
+    if (p->unit == IRB_UNIT_NONE)
+        return IRB_VERDICT_UNKNOWN;
+    if (irb_metrics[metric].better != IRB_BETTER_LOWER || !all_positive(p))
+        return compare_differences(p, metric, confidence);
+    struct irb_interval i = ratio_of(p, confidence).interval;
+    if (isnan(i.low) || isnan(i.high))
+        return IRB_VERDICT_UNKNOWN;
+    return i.high < 1 ? IRB_VERDICT_BETTER : i.low > 1 ? IRB_VERDICT_WORSE : IRB_VERDICT_SAME;
 }
 
 enum irb_verdict irb_analysis_compare(const struct irb_analysis *analysis, int scene, int a, int b,
                                       int metric)
 {
     const struct irb_analysis_trial *trials = analysis->scenes[scene].trials;
-    struct irb_paired p = irb_paired_units(&trials[a], &trials[b], metric);
-    bool by_ratio = irb_metrics[metric].better == IRB_BETTER_LOWER && all_positive(&p);
-    double same = by_ratio ? 1 : 0;
-    struct irb_interval i = {NAN, NAN, NAN, 0};
-    if (by_ratio)
-        i = ratio_of(&p, analysis->confidence).interval;
-    else if (p.unit != IRB_UNIT_NONE)
-        i = difference_of(&p, metric, analysis->confidence);
-    irb_paired_free(&p);
-    if (isnan(i.low) || isnan(i.high))
+    if (trials[a].partial || trials[b].partial)
         return IRB_VERDICT_UNKNOWN;
-    return i.high < same ? IRB_VERDICT_BETTER : i.low > same ? IRB_VERDICT_WORSE : IRB_VERDICT_SAME;
+    struct irb_paired p = irb_paired_units(&trials[a], &trials[b], metric);
+    enum irb_verdict verdict = compare_units(&p, metric, analysis->confidence);
+    irb_paired_free(&p);
+    return verdict;
 }

@@ -65,7 +65,7 @@ int irb_html_best(const struct irb_analysis_scene *scene, int metric)
     for (int t = 0; t < scene->trial_count; t++) {
         const struct irb_analysis_trial *trial = &scene->trials[t];
         double badness = irb_metric_badness(metric, trial->measures[metric].interval.value);
-        if (isnan(badness) || trial->at_noise[metric] || badness >= least)
+        if (isnan(badness) || trial->at_noise[metric] || trial->partial || badness >= least)
             continue;
         best = t;
         least = badness;

@@ -7,9 +7,14 @@
 
 enum { DIGITS = 3 };
 
+static bool is_exact(const struct irb_interval *i)
+{
+    return i->low == i->value && i->high == i->value;
+}
+
 static bool has_ends(const struct irb_interval *i)
 {
-    return !isnan(i->low) && !isnan(i->high) && !(i->low == i->value && i->high == i->value);
+    return !isnan(i->low) && !isnan(i->high) && !is_exact(i);
 }
 
 static void number(struct irb_str *out, int metric, double value)
@@ -62,8 +67,9 @@ void irb_ratio_text(struct irb_str *out, const struct irb_measure *ratio)
         irb_str_printf(out, "-");
         return;
     }
-    irb_str_printf(out, "%s", has_ends(i) && irb_interval_contains(i, 1) ? "~ " : "");
+    irb_str_printf(out, "%s", irb_interval_contains(i, 1) ? "~ " : "");
     ratio_number(out, i->value);
+    irb_str_printf(out, "%s", is_exact(i) ? " exact" : "");
     if (has_ends(i)) {
         irb_str_printf(out, " [");
         ratio_number(out, i->low);

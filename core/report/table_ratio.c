@@ -159,8 +159,9 @@ static void write_scene(const struct pair *of, const struct irb_table_options *o
 static const char foot[] =
     "Value of the trial over that of the other, with the 95 % interval from paired units: seeds, "
     "else rounds (times),\nelse blocks of frames; ~ not distinguishable: the interval contains 1. "
-    "Without an interval: too few units.\nIn brackets: one of both is not above the reference's "
-    "own noise. The noise in both draws ratios of errors towards 1.\n";
+    "Exact: all units have the same\nratio. Without an interval: too few units, or all are alike. "
+    "In brackets: one of both is not above the reference's own noise.\nThe noise in both draws "
+    "ratios of errors towards 1. Of trials with fewer frames than others there is none.\n";
 
 static void write_people(const struct irb_analysis *analysis,
                          const struct irb_table_options *options, struct irb_str *out)

@@ -3,9 +3,9 @@
  * Every trial against one: ratios of the metrics that decide, from paired units (analysis.h).
  *
  * text, md and latex have "0.83 [0.79, 0.88]", "~ 0.98 [0.93, 1.04]" where the interval contains 1,
- * in brackets where one of both errors is not above the reference's own noise. csv and json have
- * scene, method, trial, against, then METRIC_ratio, _low, _high, _unit and _distinguishable (1, 0,
- * or nothing where there is no interval).
+ * "0.50 exact" where it has no width, in brackets where one of both errors is not above the
+ * reference's own noise. csv and json have scene, method, trial, against, then METRIC_ratio, _low,
+ * _high, _unit and _distinguishable (1, 0, or nothing where there is no interval).
  */
 #ifndef IRB_REPORT_TABLE_RATIO_H
 #define IRB_REPORT_TABLE_RATIO_H

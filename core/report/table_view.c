@@ -68,7 +68,7 @@ static double best_of(const struct irb_table_group *group, const struct irb_colu
     for (int i = 0; i < group->count; i++) {
         const struct irb_table_row *row = &group->rows[i];
         double badness = irb_metric_badness(column->metric, row->metrics[column->metric]);
-        if (isnan(badness))
+        if (isnan(badness) || row->frames < group->frames)
             continue;
         ranked++;
         if (!below_floor(column, row) && !(badness >= best))
@@ -81,7 +81,7 @@ enum irb_mark irb_table_mark(const struct irb_table_group *group, const struct i
                              const struct irb_table_row *row)
 {
     double value = row->metrics[column->metric];
-    if (isnan(value))
+    if (isnan(value) || row->frames < group->frames)
         return IRB_MARK_NONE;
     if (below_floor(column, row))
         return IRB_MARK_BELOW_FLOOR;
@@ -147,6 +147,8 @@ struct irb_table_group irb_table_group_at(const struct irb_table_data *data, int
     while (first + group.count < data->row_count &&
            !strcmp(data->rows[first + group.count].trial->scene, scene))
         group.count++;
+    for (int i = 0; i < group.count; i++)
+        group.frames = group.rows[i].frames > group.frames ? group.rows[i].frames : group.frames;
     for (int c = 0; c < IRB_COLUMNS; c++) {
         group.shown[c] = column_shown(&group, &irb_columns[c]);
         group.spread[c] = group.shown[c] && has_spread(&group, &irb_columns[c]);

@@ -29,6 +29,7 @@ struct irb_table_group {
     bool shown[IRB_COLUMNS];
     bool spread[IRB_COLUMNS]; /* some row has one */
     bool any_below;           /* a value that is not ranked is shown */
+    int frames;               /* most that a row is of: rows of fewer are not ranked */
 };
 
 enum irb_mark { IRB_MARK_NONE, IRB_MARK_BEST, IRB_MARK_BELOW_FLOOR, IRB_MARK_SAME };

@@ -117,6 +117,47 @@ static void fill_partial(struct irb_store *store)
     trials_score(store, partial, 0, "indirect_flip", 100);
 }
 
+/* Scene "drawless": e and f have the same in each seed, g too, but no frames. Over a frame's RMSE f
+ * is 1 +- 0.1, and a millionth more over the sequence. */
+static double frame_of_f(int frame)
+{
+    return rmse_at(frame, 1) * (1 + 0.1 * cos(3 * frame));
+}
+
+static void fill_drawless(struct irb_store *store)
+{
+    for (int seed = 0; seed < SEEDS; seed++) {
+        int64_t e = trials_add(store, "drawless", "m", "e", "{}", seed);
+        int64_t f = trials_add(store, "drawless", "m", "f", "{}", seed);
+        int64_t g = trials_add(store, "drawless", "m", "g", "{}", seed);
+        for (int frame = 0; frame < FRAMES; frame++) {
+            trials_score(store, e, frame, "indirect_rmse", rmse_at(frame, 1));
+            trials_score(store, f, frame, "indirect_rmse", frame_of_f(frame));
+        }
+        const struct irb_store_value values[] = {{"indirect_rmse", rmse_of(1)}, {"gl_bytes", 3}};
+        trials_scores(store, e, -1, values, 2);
+        trials_score(store, f, -1, "indirect_rmse", rmse_of(1.000001));
+        const struct irb_store_value twice[] = {{"indirect_rmse", rmse_of(2)}, {"gl_bytes", 6}};
+        trials_scores(store, g, -1, twice, 2);
+    }
+}
+
+/* Scene "energy", by seed: p is right in the mean and far off in each; q and s are off by as much
+ * on either side; r is off by a fifth of that. */
+static const double energies[][SEEDS] = {{0.9, 1.1, 0.88, 1.13},
+                                         {1.05, 1.055, 1.05, 1.046},
+                                         {0.99, 0.991, 0.988, 0.99},
+                                         {0.95, 0.946, 0.949, 0.954}};
+
+static void fill_energy(struct irb_store *store)
+{
+    static const char *const names[] = {"p", "q", "r", "s"};
+    for (int t = 0; t < 4; t++)
+        for (int seed = 0; seed < SEEDS; seed++)
+            trials_score(store, trials_add(store, "energy", "m", names[t], "{}", seed), -1,
+                         "indirect_energy_ratio", energies[t][seed]);
+}
+
 static struct irb_analysis analysis;
 
 static int set_up(void **state)
@@ -128,6 +169,8 @@ static int set_up(void **state)
     fill_frames(store);
     fill_repeats(store);
     fill_partial(store);
+    fill_drawless(store);
+    fill_energy(store);
     return irb_analysis_read(&analysis, store, 0.95, &err) ? 0 : -1;
 }
 
@@ -209,13 +252,59 @@ static void test_differences(void **state)
     assert_int_equal(compare("seeds", "z", "a", M(indirect_pop_share)), IRB_VERDICT_BETTER);
     assert_int_equal(compare("seeds", "a", "z", M(indirect_pop_share)), IRB_VERDICT_WORSE);
     assert_true(isnan(ratio("seeds", "z", "a", M(indirect_pop_share)).interval.value));
-    /* |a - 1| = .1 .09 .08 .07, |b - 1| = .04 .06 .08 .1 by seed */
+    /* 1 - a = .1 .09 .08 .07, b - 1 = .04 .06 .08 .1 by seed: which mean is farther off? */
     double difference[SEEDS];
     for (int i = 0; i < SEEDS; i++)
         difference[i] = (0.1 - 0.01 * i) - (0.1 - 0.02 * (SEEDS - 1 - i));
     struct irb_interval expected = irb_mean_interval(difference, SEEDS, 0.95);
     assert_true(irb_interval_contains(&expected, 0));
     assert_int_equal(compare("seeds", "a", "b", M(indirect_energy_ratio)), IRB_VERDICT_SAME);
+}
+
+/* Ranked are means: what is as far off in each seed as p is not worse for it. */
+static void test_energy(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(fabs(measure("energy", "p", M(indirect_energy_ratio)).interval.value - 1), <, 0.01);
+    assert_int_equal(compare("energy", "p", "q", M(indirect_energy_ratio)), IRB_VERDICT_SAME);
+    assert_int_equal(compare("energy", "q", "p", M(indirect_energy_ratio)), IRB_VERDICT_SAME);
+    assert_int_equal(compare("energy", "q", "s", M(indirect_energy_ratio)), IRB_VERDICT_SAME);
+    assert_int_equal(compare("energy", "r", "q", M(indirect_energy_ratio)), IRB_VERDICT_BETTER);
+    assert_int_equal(compare("energy", "q", "r", M(indirect_energy_ratio)), IRB_VERDICT_WORSE);
+    assert_int_equal(compare("energy", "r", "s", M(indirect_energy_ratio)), IRB_VERDICT_BETTER);
+    assert_int_equal(compare("energy", "s", "r", M(indirect_energy_ratio)), IRB_VERDICT_WORSE);
+}
+
+/* Seeds that change nothing are no units, and no certainty. */
+static void test_equal_seeds(void **state)
+{
+    (void)state;
+    double e[FRAMES], f[FRAMES], blocks_e[IRB_BLOCKS_MOST], blocks_f[IRB_BLOCKS_MOST];
+    for (int frame = 0; frame < FRAMES; frame++) {
+        e[frame] = pow(rmse_at(frame, 1), 2);
+        f[frame] = pow(frame_of_f(frame), 2);
+    }
+    int count = irb_blocks(e, FRAMES, blocks_e);
+    struct irb_interval mean = irb_mean_interval(blocks_e, count, 0.95);
+    struct irb_measure found = measure("drawless", "e", M(indirect_rmse));
+    assert_int_equal(found.unit, IRB_UNIT_BLOCK);
+    REQUIRE_REL(found.interval.low / found.interval.value, sqrt(mean.low / mean.value), 1e-9);
+    count = irb_blocks_pair(e, f, FRAMES, blocks_e, blocks_f);
+    struct irb_interval pairs = irb_ratio_interval(blocks_e, blocks_f, count, 0.95);
+    found = ratio("drawless", "e", "f", M(indirect_rmse));
+    assert_int_equal(found.unit, IRB_UNIT_BLOCK);
+    REQUIRE_REL(found.interval.value, 1 / 1.000001, 1e-12);
+    REQUIRE_REL(found.interval.high / found.interval.value, sqrt(pairs.high / pairs.value), 1e-9);
+    assert_int_equal(compare("drawless", "e", "f", M(indirect_rmse)), IRB_VERDICT_SAME);
+    /* no frames: nothing says how much they vary */
+    assert_int_equal(measure("drawless", "g", M(indirect_rmse)).unit, IRB_UNIT_NONE);
+    found = ratio("drawless", "g", "e", M(indirect_rmse));
+    assert_int_equal(found.unit, IRB_UNIT_NONE);
+    REQUIRE_REL(found.interval.value, 2, 1e-12);
+    assert_int_equal(compare("drawless", "g", "e", M(indirect_rmse)), IRB_VERDICT_UNKNOWN);
+    /* memory is what it is */
+    expect_interval(ratio("drawless", "g", "e", M(gl_bytes)), IRB_UNIT_SEED, SEEDS, 2, 2, 2);
+    assert_int_equal(compare("drawless", "g", "e", M(gl_bytes)), IRB_VERDICT_WORSE);
 }
 
 static void test_noise(void **state)
@@ -341,6 +430,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_differences),
+        cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_equal_seeds),
         cmocka_unit_test(test_noise),
         cmocka_unit_test(test_blocks),
         cmocka_unit_test(test_blocks_of_energy),

@@ -3,6 +3,7 @@
  * Tables of runs that are not finished.
  */
 #include "core/base/clock.h"
+#include "core/report/analysis.h"
 #include "core/report/table.h"
 #include "tests/support/compare.h"
 
@@ -148,6 +149,31 @@ static void test_names(void **state)
     free(text);
 }
 
+/* a, the fastest so far, has half of the frames that b and c have: it is shown, and no more. */
+static void test_not_ranked(void **state)
+{
+    struct irb_error err = {0};
+    struct irb_analysis analysis;
+    char *text = write_table(*state, IRB_TABLE_TEXT, false);
+    assert_non_null(strstr(text, " 5.00  "));
+    assert_non_null(strstr(text, " 7.00*"));
+    free(text);
+    REQUIRE_OK(irb_analysis_read(&analysis, *state, IRB_CONFIDENCE, &err));
+    const struct irb_analysis_scene *box = &analysis.scenes[0];
+    int a = irb_analysis_trial_find(box, "a"), b = irb_analysis_trial_find(box, "b"),
+        c = irb_analysis_trial_find(box, "c");
+    assert_true(box->trials[a].partial && !box->trials[b].partial && !box->trials[c].partial);
+    assert_int_equal(box->trials[a].frames, 2);
+    REQUIRE_NEAR(box->trials[a].measures[IRB_METRIC_frame_ms].interval.value, 5, 0);
+    assert_true(isnan(irb_analysis_ratio(&analysis, 0, a, b, IRB_METRIC_frame_ms).interval.value));
+    assert_int_equal(irb_analysis_compare(&analysis, 0, b, a, IRB_METRIC_indirect_rmse),
+                     IRB_VERDICT_UNKNOWN);
+    /* of the seed that both have */
+    REQUIRE_REL(irb_analysis_ratio(&analysis, 0, b, c, IRB_METRIC_frame_ms).interval.value, 6. / 9,
+                1e-12);
+    irb_analysis_destroy(&analysis);
+}
+
 static void expect_first(struct irb_store *store, const char *progress, const char *line)
 {
     struct irb_error err = {0};
@@ -202,6 +228,7 @@ int main(void)
         cmocka_unit_test(test_rows),
         cmocka_unit_test(test_black),
         cmocka_unit_test(test_names),
+        cmocka_unit_test(test_not_ranked),
         cmocka_unit_test(test_first_line),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

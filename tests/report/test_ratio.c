@@ -14,7 +14,8 @@ enum { SEEDS = 3 };
 /* FLIP of good and near differ by less than from seed to seed, bad is far off and lone has one
  * seed; relMSE of quiet is below the noise. Scene "other" has no trial good. */
 static const double of_good[] = {0.10, 0.11, 0.12}, of_near[] = {0.112, 0.108, 0.119},
-                    of_bad[] = {0.2, 0.23, 0.25};
+                    of_bad[] = {0.2, 0.23, 0.25}, good_relmse[] = {0.02, 0.021, 0.019},
+                    good_ms[] = {5, 5.1, 5.2}, near_ms[] = {4, 4.1, 4.1};
 
 static void add(struct irb_store *store, const char *trial, int seed, double flip, double relmse,
                 double ms)
@@ -33,8 +34,8 @@ static int set_up(void **state)
     struct irb_store *store = trials_open(folder);
     *state = store;
     for (int i = 0; i < SEEDS; i++) {
-        add(store, "good", i, of_good[i], 0.02, 5);
-        add(store, "near", i, of_near[i], 0.03 + 0.001 * i, 4);
+        add(store, "good", i, of_good[i], good_relmse[i], good_ms[i]);
+        add(store, "near", i, of_near[i], 0.03 + 0.001 * i, near_ms[i]);
         add(store, "bad", i, of_bad[i], 0.05, 5 + i);
         add(store, "quiet", i, 0.3, 0.005, 5);
     }
@@ -73,8 +74,8 @@ static void test_marks(void **state)
     expect(text, " 0.227  ", true);
     expect(text, " 0.111  ", true); /* one seed says nothing */
     expect(text, " 0.00500~", true);
-    expect(text, " 4.00*", true);
-    expect(text, " 5.00  ", true); /* of good, each seed alike */
+    expect(text, " 4.07*", true);
+    expect(text, " 5.10  ", true);
     expect(text,
            "; = not distinguishable from it (the 95 % interval of their paired ratio contains 1)",
            true);
@@ -120,8 +121,12 @@ static void test_complete(void **state)
     REQUIRE_REL(number(object, "indirect_flip_low"), mean.low, 1e-8);
     REQUIRE_REL(number(object, "indirect_flip_high"), mean.high, 1e-8);
     expect_text(object, "indirect_flip_unit", "\"seed\"");
-    REQUIRE_NEAR(number(object, "indirect_relmse_low"), 0.02 - 0.01, 1e-12);
-    REQUIRE_NEAR(number(object, "indirect_relmse_high"), 0.02, 1e-12);
+    mean = irb_mean_interval(good_relmse, SEEDS, 0.95);
+    REQUIRE_REL(number(object, "indirect_relmse_low"), mean.low - 0.01, 1e-8);
+    REQUIRE_REL(number(object, "indirect_relmse_high"), mean.high, 1e-8);
+    assert_true(json_item(text, 3, object, OBJECT)); /* quiet has the same in each seed */
+    expect_text(object, "indirect_flip_unit", "\"none\"");
+    assert_true(isnan(number(object, "indirect_flip_low")));
     assert_true(json_item(text, 4, object, OBJECT));
     assert_true(isnan(number(object, "indirect_flip_low")));
     expect_text(object, "indirect_flip_unit", "\"none\"");
@@ -163,12 +168,14 @@ static void test_ratio_json(void **state)
     REQUIRE_REL(number(object, "indirect_flip_low"), pairs.low, 1e-8);
     REQUIRE_REL(number(object, "indirect_flip_high"), pairs.high, 1e-8);
     REQUIRE_NEAR(number(object, "indirect_flip_distinguishable"), 0, 0);
-    REQUIRE_NEAR(number(object, "frame_ms_ratio"), 0.8, 1e-12);
+    REQUIRE_REL(number(object, "frame_ms_ratio"), 12.2 / 15.3, 1e-8);
     REQUIRE_NEAR(number(object, "frame_ms_distinguishable"), 1, 0);
     assert_true(json_item(text, 1, object, OBJECT));
     expect_text(object, "trial", "\"bad\"");
     REQUIRE_NEAR(number(object, "indirect_flip_distinguishable"), 1, 0);
     REQUIRE_NEAR(number(object, "gl_bytes_ratio"), 1.5, 0);
+    REQUIRE_NEAR(number(object, "gl_bytes_low"), 1.5, 0);
+    REQUIRE_NEAR(number(object, "gl_bytes_distinguishable"), 1, 0);
     /* no seed in common */
     assert_true(json_item(text, 3, object, OBJECT));
     expect_text(object, "trial", "\"lone\"");
@@ -188,8 +195,11 @@ static void test_ratio_people(void **state)
     expect(text, "box: ratios to good\n", true);
     expect(text, expected, true);
     expect(text, "  ~ 1.03 [", true);
-    expect(text, "  (0.25)  ", true); /* relMSE of quiet is not above the noise */
-    expect(text, "  0.80  ", true);
+    expect(text, "  (0.25 [", true);      /* relMSE of quiet is not above the noise */
+    expect(text, "  1.50 exact\n", true); /* memory */
+    expect(text, "  ~ 1.00 exact\n", true);
+    expect(text, "  -\n", true); /* lone has no seed in common */
+    expect(text, "Exact: all units have the same\nratio. Without an interval: too few units", true);
     expect(text, "other", true); /* of the foot alone */
     expect(text, "elsewhere", false);
     expect(text, "  RMSE", false);

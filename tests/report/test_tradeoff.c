@@ -165,7 +165,7 @@ static void test_files(void **state)
     expect(text, "box,frame_ms,indirect_flip,0.01,good,,,,,none,,,,,,,good:2\n");
     free(text);
     text = read_file("pareto.csv");
-    expect(text, "\nbox,fast,fast:1,10,10,10,1048576,0.4,");
+    expect(text, "\nbox,fast,fast:1,10,,,1048576,0.4,");
     free(text);
     text = read_file("answers.md");
     expect(text, "# Error against cost\n");
