@@ -12,7 +12,7 @@ int irb_progress_trial_units(const struct irb_config *config, const struct irb_t
 {
     int frames = config->render.frames;
     bool history = irb_trial_needs(trial, frames) & IRB_NEEDS_HISTORY;
-    return frames + (history ? config->render.settle : IRB_WARM_UP_FRAMES);
+    return frames + (history ? irb_settle_frames(&config->render) : IRB_WARM_UP_FRAMES);
 }
 
 struct irb_progress irb_progress_plan(const struct irb_config *config, unsigned stages)

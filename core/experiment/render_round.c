@@ -95,7 +95,8 @@ static bool render_frames(struct irb_round *round, struct irb_passes *passes, st
 {
     const struct irb_render_settings *render = &passes->run->config->render;
     struct irb_run *run = passes->run;
-    int first = -(render->settle > IRB_WARM_UP_FRAMES ? render->settle : IRB_WARM_UP_FRAMES);
+    int settle = irb_settle_frames(render);
+    int first = -(settle > IRB_WARM_UP_FRAMES ? settle : IRB_WARM_UP_FRAMES);
     for (int frame = first; frame < render->frames; frame++) {
         if (!render_shared(round, passes, frame, err))
             return false;

@@ -120,7 +120,7 @@ bool irb_trial_run_needs_frame(const struct irb_trial_run *trial, const struct i
     if (trial->last_frame < 0 || frame > trial->last_frame)
         return false;
     if (keeps_history(trial))
-        return frame >= -passes->run->config->render.settle;
+        return frame >= -irb_settle_frames(&passes->run->config->render);
     return frame < 0 ? frame >= -IRB_WARM_UP_FRAMES : !frame_done(trial, passes, frame);
 }
 
@@ -181,6 +181,16 @@ static bool check_statistics(const struct irb_frame_output *output, struct irb_e
                     IRB_MAX_STATISTICS, output->statistic_count);
 }
 
+/* A history that has no frames to settle in begins with frame 0, whatever was rendered to warm up.
+ */
+static bool forget_warm_up(struct irb_trial_run *trial, const struct irb_run *run,
+                           struct irb_error *err)
+{
+    const struct irb_trial *of = trial->trial;
+    return !keeps_history(trial) || run->config->render.settle > 0 ||
+           of->method->begin_sequence(trial->state, of->params, (uint64_t)of->seed, err);
+}
+
 static bool render(struct irb_trial_run *trial, struct irb_passes *passes, int frame, bool debug,
                    struct irb_frame_output *output, double ms[IRB_MAX_STAGES],
                    struct irb_error *err)
@@ -206,6 +216,7 @@ static bool render(struct irb_trial_run *trial, struct irb_passes *passes, int f
     bool ok = trial->trial->method->render_frame(trial->state, &inputs, output, err) &&
               check_statistics(output, err) && irb_gl_check(gl, trial->trial->name, err);
     irb_timer_collect(trial->timer, ms);
+    ok = ok && (frame >= 0 || forget_warm_up(trial, passes->run, err));
     if (frame < 0)
         trial->settle_ms += 1e3 * (finished_s(passes->run) - begin);
     trial->bytes += gl->bytes - before; /* a method may allocate when it first draws */

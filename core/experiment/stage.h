@@ -21,6 +21,12 @@ enum irb_stage {
 
 /* Of a method that keeps no history: they only load caches and compile shaders. */
 enum { IRB_WARM_UP_FRAMES = 1 };
+/* Frames before frame 0 of one that does: where it has none to settle in, it is warmed up too, and
+ * forgets that. */
+static inline int irb_settle_frames(const struct irb_render_settings *render)
+{
+    return render->settle > 0 ? render->settle : IRB_WARM_UP_FRAMES;
+}
 
 struct irb_run_options {
     const char *out; /* run folder; NULL = results/runs/NAME-KEY */
