@@ -12,6 +12,7 @@
 #include "core/image/imageio.h"
 #include "core/score/metrics.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -180,7 +181,6 @@ static bool make_all_maps(struct maps *maps, const struct keep_frame *kept, int 
 
 static bool keep_one(void *user, int index, int thread)
 {
-    (void)thread;
     struct keep_frame *kept = user;
     const struct irb_keep *keep = kept->keep;
     const struct irb_target *target = &kept->targets->target;
@@ -205,6 +205,8 @@ static bool keep_one(void *user, int index, int thread)
     irb_debug_layers_destroy(&debug);
     destroy_maps(&maps);
     irb_scored_frame_destroy(&frame);
+    if (thread == 0)
+        irb_run_part(keep->run, index);
     return ok;
 }
 
@@ -251,6 +253,7 @@ static bool keep_frame(const struct irb_keep *keep, int frame, struct irb_target
     for (int t = 0; !ok && t < keep->trial_count; t++)
         if (errs[t].code != IRB_E_OK && err)
             *err = errs[t];
+    irb_run_step(keep->run, count);
     return ok;
 }
 
@@ -274,8 +277,14 @@ static bool keep_frames(const struct irb_keep *keep, struct irb_error *err)
     bool ok = wanted && errs;
     if (!ok)
         irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", keep->trial_count);
+    struct irb_progress *p = &keep->run->progress;
+    double end =
+        p->kinds[IRB_PROGRESS_KEEP].done + keep->trial_count * p->kinds[IRB_PROGRESS_KEEP].of_trial;
+    irb_run_begin(keep->run, IRB_PROGRESS_KEEP, "keep images of %s", keep->sequence->entry->name);
     for (int i = 0; ok && i < keep->sequence->frame_count; i++)
         ok = !irb_run_stopped(keep->run, err) && keep_frame(keep, i, &targets, wanted, errs, err);
+    if (ok) /* there are fewer where frames are the worst and the last, or kept already */
+        irb_progress_skip(p, IRB_PROGRESS_KEEP, fmax(end - p->kinds[IRB_PROGRESS_KEEP].done, 0));
     irb_target_pair_destroy(&targets);
     free(wanted);
     free(errs);

@@ -85,6 +85,7 @@ static bool render_rounds(struct scene_run *scene, int rounds, int left, struct 
         if (!find_round(scene, i, &round))
             continue;
         if (i && run->rounds_rendered && irb_clock_s() >= run->deadline_s) {
+            irb_round_leave_out(&round, &scene->passes);
             left_out++;
             continue;
         }

@@ -47,8 +47,10 @@ static bool begin_trials(struct irb_round *round, struct irb_passes *passes, str
     /* methods are created with the scene as it is at the start */
     bool ok =
         irb_sequence_pose(passes->sequence, 0, err) && irb_scene_gl_update(passes->scene, err);
-    for (int t = 0; ok && t < round->trial_count; t++)
+    for (int t = 0; ok && t < round->trial_count; t++) {
         ok = round->trials[t]->last_frame < 0 || irb_trial_run_begin(round->trials[t], passes, err);
+        irb_run_part(passes->run, 0);
+    }
     return ok;
 }
 
@@ -138,10 +140,24 @@ void irb_round_skip(const struct irb_round *round, struct irb_passes *passes)
                           irb_progress_trial_units(run->config, round->trials[t]->trial));
 }
 
+void irb_round_leave_out(const struct irb_round *round, struct irb_passes *passes)
+{
+    struct irb_run *run = passes->run;
+    for (int t = 0; t < round->trial_count; t++) {
+        const struct irb_trial_run *trial = round->trials[t];
+        double units = irb_progress_trial_units(run->config, trial->trial);
+        if (trial->last_frame >= 0)
+            irb_progress_leave_out(&run->progress, IRB_PROGRESS_RENDER, units);
+        else
+            irb_progress_skip(&run->progress, IRB_PROGRESS_RENDER, units);
+    }
+}
+
 bool irb_round_render(struct irb_round *round, struct irb_passes *passes, struct irb_error *err)
 {
     struct irb_run *run = passes->run;
     irb_run_work(run, IRB_WORK_RENDER);
+    irb_progress_round(&run->progress, run->scenes_after);
     say_what(round, passes);
     bool ok = begin_trials(round, passes, err) && render_frames(round, passes, err);
     end_trials(round);

@@ -24,6 +24,9 @@ bool irb_round_look(struct irb_round *round, const struct irb_passes *passes);
 /* That nothing of it is missing, for progress. */
 void irb_round_skip(const struct irb_round *round, struct irb_passes *passes);
 
+/* That it is left for another process, for progress. */
+void irb_round_leave_out(const struct irb_round *round, struct irb_passes *passes);
+
 /* Renders what is missing. The states of the methods live no longer than the round. */
 bool irb_round_render(struct irb_round *round, struct irb_passes *passes, struct irb_error *err);
 

@@ -118,6 +118,7 @@ static bool score_rendered(struct irb_run *run, struct irb_sequence *sequence,
     const struct irb_config *all = run->config;
     struct irb_config rendered;
     bool ok = irb_run_rendered_trials(&rendered, run, sequence, err);
+    irb_progress_leave_out_trials(&run->progress, all->trial_count - rendered.trial_count);
     run->config = &rendered;
     ok = ok && irb_score_sequence(run, sequence, err);
     run->config = all;
@@ -162,9 +163,12 @@ static bool run_scenes(struct irb_run *run, struct irb_error *err)
     bool ok = irb_run_trials(&selected, run->config, run->options, err);
     run->config = &selected;
     if (ok)
-        run->progress = irb_progress_plan(&selected, run->options->stages);
-    for (int i = 0; ok && i < selected.scene_count; i++)
+        run->progress = irb_progress_plan(&selected, run->options->stages, run->options->keep_all);
+    run->progress.deadline_s = run->deadline_s;
+    for (int i = 0; ok && i < selected.scene_count; i++) {
+        run->scenes_after = selected.scene_count - 1 - i;
         ok = run_scene(run, &selected.scenes[i], err);
+    }
     irb_run_trials_free(&selected);
     return ok;
 }
@@ -206,7 +210,7 @@ bool irb_run_references(const struct irb_config *config, const struct irb_run_op
 {
     struct irb_run run = begin_run(config, options);
     bool ok = true;
-    run.progress = irb_progress_plan(config, IRB_STAGE_PREPARE);
+    run.progress = irb_progress_plan(config, IRB_STAGE_PREPARE, false);
     for (int i = 0; ok && i < config->scene_count; i++) {
         struct irb_sequence sequence;
         irb_run_work(&run, IRB_WORK_STARTUP);

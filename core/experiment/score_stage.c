@@ -15,6 +15,7 @@
 #include "core/score/metrics.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,6 +33,7 @@ struct scoring {
     struct irb_target_constants constants;
     struct irb_target_pair targets; /* of this frame and the one before it */
     int frame;
+    atomic_int made; /* trials of the frame, for progress */
     struct trial_scores *trials;
     int trial_count;
 };
@@ -56,7 +58,6 @@ static bool score_and_film(const struct scoring *s, struct trial_scores *trial,
 /* Scores one trial's current frame; runs on any thread, touches its own trial only. */
 static bool score_trial(void *user, int index, int thread)
 {
-    (void)thread;
     struct scoring *s = user;
     struct trial_scores *trial = &s->trials[index];
     int frame = s->frame;
@@ -83,6 +84,9 @@ static bool score_trial(void *user, int index, int thread)
     trial->fresh[frame] = ok;
     irb_scored_frame_destroy(&trial->previous);
     trial->previous = current;
+    int made = atomic_fetch_add(&s->made, 1) + 1;
+    if (thread == 0)
+        irb_run_part(s->run, made);
     return ok;
 }
 
@@ -129,6 +133,7 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
         !irb_film_target(s->run->dir, s->sequence->entry->name, s->frame, &s->targets.target,
                          &s->constants, err))
         return false;
+    atomic_store(&s->made, 0);
     if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
         for (int t = 0; t < s->trial_count; t++)
             if (s->trials[t].err.code != IRB_E_OK && err)
@@ -271,8 +276,8 @@ bool irb_score_sequence(struct irb_run *run, struct irb_sequence *sequence, stru
              irb_target_constants_store(&s.constants, run, sequence, err) &&
              score_frames(&s, err) && store_sequences(&s, err) && keep_images(&s, err);
     } else {
-        irb_progress_skip(&run->progress, IRB_PROGRESS_SCORE,
-                          (double)s.trial_count * sequence->frame_count);
+        for (int kind = IRB_PROGRESS_SCORE; kind < IRB_PROGRESS_KINDS; kind++)
+            irb_progress_skip_trials(&run->progress, (enum irb_progress_kind)kind, s.trial_count);
     }
     close_scoring(&s);
     return ok;

@@ -29,7 +29,7 @@ static bool store_progress(struct irb_run *run, const char *state, struct irb_er
     irb_clock_utc(at);
     irb_str_printf(&json,
                    "{\"fraction\": %.4f, \"left_s\": %.0f, \"what\": ", irb_progress_fraction(p),
-                   irb_progress_left_s(p));
+                   irb_progress_left_s(p, irb_clock_s()));
     irb_str_json_string(&json, p->what);
     irb_str_printf(&json, ", \"at\": \"%s\", \"state\": \"%s\"}", at, state);
     bool ok = irb_store_set_meta(run->store, "progress", irb_str_text(&json), err);
@@ -43,8 +43,9 @@ static void tell_progress(struct irb_run *run)
     static const double interval_s = 1;
     struct irb_progress *p = &run->progress;
     if (run->log)
-        run->log->run = (struct irb_log_run){
-            .known = true, .fraction = irb_progress_fraction(p), .left_s = irb_progress_left_s(p)};
+        run->log->run = (struct irb_log_run){.known = true,
+                                             .fraction = irb_progress_fraction(p),
+                                             .left_s = irb_progress_left_s(p, irb_clock_s())};
     if (run->store && irb_clock_s() - p->stored_s >= interval_s) {
         struct irb_error ignored; /* what matters is stored elsewhere, and says so */
         store_progress(run, "running", &ignored);
@@ -68,11 +69,15 @@ void irb_run_step(struct irb_run *run, double units)
     tell_progress(run);
 }
 
+void irb_run_part(struct irb_run *run, double units)
+{
+    irb_progress_part(&run->progress, units);
+    tell_progress(run);
+}
+
 static void see_part(void *user, double fraction)
 {
-    struct irb_run *run = user;
-    irb_progress_part(&run->progress, fraction);
-    tell_progress(run);
+    irb_run_part(user, fmin(fraction, 1));
 }
 
 void irb_run_watch(struct irb_run *run, bool on)

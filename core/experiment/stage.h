@@ -66,6 +66,7 @@ struct irb_run {
     struct irb_progress progress;
     double deadline_s;   /* by irb_clock_s(); infinite without a limit */
     int rounds_rendered; /* by this process */
+    int scenes_after;    /* this one */
     int rounds_left_out; /* for want of time */
     double seconds[IRB_WORK_COUNT];
     enum irb_work working; /* what the clock is running for */
@@ -81,6 +82,9 @@ void irb_run_begin(struct irb_run *run, enum irb_progress_kind kind, const char 
  * "progress": {"fraction": 0.43, "left_s": 730, "what": "...", "at": "2026-01-31T12:00:00Z",
  * "state": "running" or "stopped"}; "done" when all stages of all trials are. */
 void irb_run_step(struct irb_run *run, double units);
+/* So many units of the next step have been made: readers take a run for dead that says nothing for
+ * 2 minutes. On the thread that began the work alone. */
+void irb_run_part(struct irb_run *run, double units);
 /* While a unit is made that reports its own progress to the log: that counts as its share. */
 void irb_run_watch(struct irb_run *run, bool on);
 /* The end of the command; `whole` where with it the run is. */

@@ -87,7 +87,6 @@ static bool add_residual(struct growing *growing, const struct pass *pass,
 
 static bool add_frame(void *user, int index, int thread)
 {
-    (void)thread;
     const struct pass *pass = user;
     struct growing *growing = &pass->trials[index];
     struct irb_scored_frame current;
@@ -101,6 +100,8 @@ static bool add_frame(void *user, int index, int thread)
                         pass->keep->constants->profile_row);
     irb_scored_frame_destroy(&growing->previous);
     growing->previous = current;
+    if (thread == 0)
+        irb_run_part(pass->keep->run, index);
     return ok;
 }
 
@@ -222,6 +223,7 @@ static bool go_through(struct pass *pass, struct irb_error *err)
                             keep->constants->profile_row);
         if (!on_all(pass, add_frame, err))
             return false;
+        irb_run_step(keep->run, pass->trial_count);
     }
     return on_all(pass, write_trial, err);
 }
@@ -250,19 +252,23 @@ static int batch_size(const struct irb_keep *keep)
 
 bool irb_temporal_maps_write(const struct irb_keep *keep, struct irb_error *err)
 {
-    int most = batch_size(keep);
+    int most = batch_size(keep), skipped = 0;
     bool ok = true;
     struct growing *trials = calloc((size_t)most, sizeof *trials);
     if (!trials)
         return irb_fail(err, IRB_E_MEMORY, "no memory for %d trials", most);
+    irb_run_begin(keep->run, IRB_PROGRESS_PICTURES, "pictures of %s", keep->sequence->entry->name);
     for (int t = 0; ok && t < keep->trial_count;) {
         struct pass pass = {.keep = keep, .targets = IRB_TARGET_PAIR_NONE, .trials = trials};
         for (; t < keep->trial_count && pass.trial_count < most; t++)
             if (is_wanted(keep, &keep->trials[t]))
                 trials[pass.trial_count++] = (struct growing){.trial = &keep->trials[t]};
+            else
+                skipped++;
         ok = pass.trial_count == 0 || go_through(&pass, err);
         finish(&pass);
     }
+    irb_progress_skip_trials(&keep->run->progress, IRB_PROGRESS_PICTURES, skipped);
     free(trials);
     return ok;
 }

@@ -38,12 +38,67 @@ static void test_plan(void **state)
     const struct irb_config config = config_of(8, 3, 2);
     assert_int_equal(irb_progress_trial_units(&config, &trials[0]), 11);
     assert_int_equal(irb_progress_trial_units(&config, &trials[1]), 9);
-    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_ALL);
+    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_ALL, false);
     REQUIRE_NEAR(p.kinds[IRB_PROGRESS_REFERENCE].total, 3 * 8, 0);
     REQUIRE_NEAR(p.kinds[IRB_PROGRESS_RENDER].total, 3 * 2 * 20, 0);
     REQUIRE_NEAR(p.kinds[IRB_PROGRESS_SCORE].total, 3 * 2 * 8, 0);
-    p = irb_progress_plan(&config, IRB_STAGE_SCORE);
+    REQUIRE_NEAR(p.kinds[IRB_PROGRESS_PICTURES].total, 3 * 2 * 8, 0);
+    REQUIRE_NEAR(p.kinds[IRB_PROGRESS_KEEP].total, 3 * 2 * 4, 0);
+    p = irb_progress_plan(&config, IRB_STAGE_SCORE, false);
     REQUIRE_NEAR(p.kinds[IRB_PROGRESS_REFERENCE].total + p.kinds[IRB_PROGRESS_RENDER].total, 0, 0);
+}
+
+/* Without settle frames a history is warmed up as well. */
+static void test_no_settle_frames(void **state)
+{
+    (void)state;
+    struct irb_config config = config_of(8, 3, 2);
+    config.render.settle = 0;
+    assert_int_equal(irb_progress_trial_units(&config, &trials[0]), 9);
+    assert_int_equal(irb_progress_trial_units(&config, &trials[1]), 9);
+}
+
+/* Two scenes of 4 rounds of 20 units, 1 s each, and 60 s of time from t = 0: a round of each scene
+ * is rendered in any case. */
+static void test_deadline(void **state)
+{
+    (void)state;
+    const struct irb_config config = config_of(8, 2, 2);
+    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_RENDER, false);
+    p.deadline_s = 60;
+    irb_progress_round(&p, 1);
+    irb_progress_begin(&p, IRB_PROGRESS_RENDER, 0);
+    irb_progress_step(&p, 10, 10);
+    REQUIRE_NEAR(irb_progress_left_s(&p, 10), 50, 1e-9); /* of 70 */
+    irb_progress_step(&p, 10, 55);                       /* slower: 2.75 s */
+    REQUIRE_NEAR(irb_progress_left_s(&p, 55), 20 * 2.75, 1e-9);
+    irb_progress_leave_out(&p, IRB_PROGRESS_RENDER, 20);
+    irb_progress_round(&p, 0);
+    irb_progress_begin(&p, IRB_PROGRESS_RENDER, 60);
+    irb_progress_step(&p, 20, 60);
+    REQUIRE_NEAR(irb_progress_left_s(&p, 61), 0, 0);
+    REQUIRE_NEAR(irb_progress_fraction(&p), 40. / 80, 1e-9); /* what is left out is not done */
+}
+
+/* All that is left is to keep images: not the end. */
+static void test_keeping(void **state)
+{
+    (void)state;
+    const struct irb_config config = config_of(8, 1, 2);
+    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_SCORE, true);
+    irb_progress_skip_trials(&p, IRB_PROGRESS_SCORE, 2);
+    irb_progress_skip_trials(&p, IRB_PROGRESS_PICTURES, 1);
+    irb_progress_begin(&p, IRB_PROGRESS_PICTURES, 0);
+    irb_progress_step(&p, 8, 8);
+    assert_true(irb_progress_fraction(&p) < 1);
+    irb_progress_begin(&p, IRB_PROGRESS_KEEP, 8);
+    irb_progress_step(&p, 4, 20);
+    irb_progress_part(&p, 2);
+    REQUIRE_NEAR(irb_progress_left_s(&p, 20), 3 * (16 - 4 - 2), 1e-9);
+    irb_progress_leave_out_trials(&p, 1); /* 8 frames of each kind */
+    REQUIRE_NEAR(irb_progress_left_s(&p, 20), 3 * 2, 1e-9);
+    irb_progress_step(&p, 12, 30);
+    REQUIRE_NEAR(irb_progress_fraction(&p), 1, 0);
 }
 
 /* Units of 2 s and of 0.5 s: 8 references, then 40 frames that are rendered: 16 s and 20 s. */
@@ -51,7 +106,7 @@ static void test_measured(void **state)
 {
     (void)state;
     const struct irb_config config = config_of(8, 1, 2);
-    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_PREPARE | IRB_STAGE_RENDER);
+    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_PREPARE | IRB_STAGE_RENDER, false);
     double now = 100;
     irb_progress_begin(&p, IRB_PROGRESS_REFERENCE, now);
     for (int i = 0; i < 8; i++)
@@ -59,13 +114,13 @@ static void test_measured(void **state)
     irb_progress_begin(&p, IRB_PROGRESS_RENDER, now += 50); /* nobody's time */
     for (int i = 0; i < 10; i++)
         irb_progress_step(&p, 1, now += 0.5);
-    REQUIRE_NEAR(irb_progress_left_s(&p), 15, 1e-9);
+    REQUIRE_NEAR(irb_progress_left_s(&p, now), 15, 1e-9);
     REQUIRE_NEAR(irb_progress_fraction(&p), 21. / 36, 1e-9);
     irb_progress_part(&p, 0.5);
-    REQUIRE_NEAR(irb_progress_left_s(&p), 14.75, 1e-9);
+    REQUIRE_NEAR(irb_progress_left_s(&p, now), 14.75, 1e-9);
     irb_progress_skip(&p, IRB_PROGRESS_RENDER, 29);
     irb_progress_step(&p, 1, now += 0.5);
-    REQUIRE_NEAR(irb_progress_left_s(&p), 0, 0);
+    REQUIRE_NEAR(irb_progress_left_s(&p, now), 0, 0);
     REQUIRE_NEAR(irb_progress_fraction(&p), 1, 0);
 }
 
@@ -74,12 +129,12 @@ static void test_cached(void **state)
 {
     (void)state;
     const struct irb_config config = config_of(10, 1, 1);
-    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_PREPARE);
+    struct irb_progress p = irb_progress_plan(&config, IRB_STAGE_PREPARE, false);
     irb_progress_skip(&p, IRB_PROGRESS_REFERENCE, 6);
     irb_progress_begin(&p, IRB_PROGRESS_REFERENCE, 0);
     irb_progress_step(&p, 1, 3);
     REQUIRE_NEAR(irb_progress_fraction(&p), 0.25, 1e-12);
-    REQUIRE_NEAR(irb_progress_left_s(&p), 9, 1e-12);
+    REQUIRE_NEAR(irb_progress_left_s(&p, 3), 9, 1e-12);
 }
 
 static void test_any_order(void **state)
@@ -88,7 +143,8 @@ static void test_any_order(void **state)
     for (uint64_t run = 0; run < 200; run++) {
         uint64_t random = irb_hash_mix(run, 7);
         const struct irb_config config = config_of((int)(random % 5), (int)(random % 3), 2);
-        struct irb_progress p = irb_progress_plan(&config, (unsigned)(random >> 8) % 8);
+        struct irb_progress p =
+            irb_progress_plan(&config, (unsigned)(random >> 8) % 8, random & 64);
         double now = 0, before = 0;
         for (int step = 0; step < 100; step++) {
             random = irb_hash_mix(random, (uint64_t)step);
@@ -103,7 +159,7 @@ static void test_any_order(void **state)
                 irb_progress_skip(&p, kind, units);
             if (random & 8)
                 irb_progress_part(&p, share);
-            double fraction = irb_progress_fraction(&p), left = irb_progress_left_s(&p);
+            double fraction = irb_progress_fraction(&p), left = irb_progress_left_s(&p, now);
             assert_true(fraction >= before && fraction <= 1);
             assert_true(left >= 0 && isfinite(left));
             before = fraction;
@@ -114,9 +170,9 @@ static void test_any_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plan),
-        cmocka_unit_test(test_measured),
-        cmocka_unit_test(test_cached),
+        cmocka_unit_test(test_plan),      cmocka_unit_test(test_no_settle_frames),
+        cmocka_unit_test(test_deadline),  cmocka_unit_test(test_keeping),
+        cmocka_unit_test(test_measured),  cmocka_unit_test(test_cached),
         cmocka_unit_test(test_any_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
