@@ -331,6 +331,14 @@ bool irb_trial_at_noise(const struct irb_analysis_trial *trial, int metric)
     return false;
 }
 
+double irb_trial_noise(const struct irb_analysis_trial *trial, int metric)
+{
+    for (int c = 0; c < IRB_COLUMNS; c++)
+        if (irb_columns[c].metric == metric && irb_columns[c].compared == metric)
+            return irb_trial_value(trial, irb_columns[c].floor);
+    return NAN;
+}
+
 /* ---- two trials ---- */
 
 static bool all_positive(const struct irb_paired *p)

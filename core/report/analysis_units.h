@@ -18,6 +18,9 @@ struct irb_measure irb_trial_measure(const struct irb_analysis_trial *trial, int
 /* Whether the metric is not above what the reference's own noise makes of it. */
 bool irb_trial_at_noise(const struct irb_analysis_trial *trial, int metric);
 
+/* The reference's noise in the metric's own unit; NaN where another metric's decides, or none. */
+double irb_trial_noise(const struct irb_analysis_trial *trial, int metric);
+
 /* Values of a metric of one trial, or of two trials in pairs. */
 struct irb_paired {
     enum irb_unit unit;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/report/pareto.h"
+#include "core/report/analysis_units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,9 +30,35 @@ static void *allocate(int count, size_t size)
     return list;
 }
 
+/* NaN of a trial that is not comparable. */
 static double value_of(const struct irb_analysis_scene *scene, int trial, int metric)
 {
-    return scene->trials[trial].measures[metric].interval.value;
+    const struct irb_analysis_trial *of = &scene->trials[trial];
+    return of->partial ? NAN : of->measures[metric].interval.value;
+}
+
+/* See the header; -infinity where there is none. */
+static double noise_level(const struct irb_analysis_scene *scene, int metric)
+{
+    double level = -INFINITY;
+    for (int t = 0; t < scene->trial_count; t++) {
+        const struct irb_analysis_trial *trial = &scene->trials[t];
+        if (trial->at_noise[metric] && !trial->partial) /* fmax leaves out what is NaN */
+            level = fmax(level, fmax(value_of(scene, t, metric), irb_trial_noise(trial, metric)));
+    }
+    return level;
+}
+
+/* Values of all trials, for comparing: what is below the noise's level is lifted to it. Free it. */
+static double *levelled(const struct irb_analysis_scene *scene, int metric)
+{
+    double *values = allocate(scene->trial_count, sizeof *values);
+    double level = noise_level(scene, metric);
+    for (int t = 0; t < scene->trial_count; t++) {
+        double value = value_of(scene, t, metric);
+        values[t] = value < level ? level : value;
+    }
+    return values;
 }
 
 static bool is_of(const struct irb_analysis_scene *scene, int trial, const char *method)
@@ -42,13 +69,10 @@ static bool is_of(const struct irb_analysis_scene *scene, int trial, const char 
 void irb_scene_front(const struct irb_analysis_scene *scene, const char *method, int error,
                      int cost, bool *front)
 {
-    int count = scene->trial_count;
-    double *errors = allocate(count, sizeof *errors), *costs = allocate(count, sizeof *costs);
-    for (int t = 0; t < count; t++) {
-        errors[t] = is_of(scene, t, method) ? value_of(scene, t, error) : NAN;
-        costs[t] = value_of(scene, t, cost);
-    }
-    irb_pareto_front(errors, costs, count, front);
+    double *errors = levelled(scene, error), *costs = levelled(scene, cost);
+    for (int t = 0; t < scene->trial_count; t++)
+        errors[t] = is_of(scene, t, method) ? errors[t] : NAN;
+    irb_pareto_front(errors, costs, scene->trial_count, front);
     free(errors);
     free(costs);
 }
@@ -76,39 +100,53 @@ static double bounded_of(const struct irb_analysis_scene *scene, const struct ir
     return takes_part ? value_of(scene, trial, q->bounded) : NAN;
 }
 
-/* Less wanted, or as much of it and less of what is bounded. */
-static bool is_better(const struct irb_analysis_scene *scene, const struct irb_question *q, int a,
-                      int b)
+/* Finds who is as good as the answer, and of whom that is not known. */
+static void find_ties(const struct irb_analysis *analysis, const struct irb_question *q,
+                      const double *wanted, struct irb_answer *answer)
 {
-    double of_a = value_of(scene, a, q->wanted), of_b = value_of(scene, b, q->wanted);
-    return of_a < of_b || (of_a == of_b && bounded_of(scene, q, a) < bounded_of(scene, q, b));
+    const struct irb_analysis_scene *scene = &analysis->scenes[q->scene];
+    for (int t = 0; t < scene->trial_count; t++) {
+        if (t == answer->trial || !(bounded_of(scene, q, t) <= q->bound))
+            continue;
+        enum irb_verdict verdict =
+            irb_analysis_compare(analysis, q->scene, t, answer->trial, q->wanted);
+        answer->as_good[t] = wanted[t] == wanted[answer->trial] || verdict == IRB_VERDICT_SAME;
+        answer->untold[t] = !answer->as_good[t] && verdict == IRB_VERDICT_UNKNOWN;
+    }
 }
 
 struct irb_answer irb_ask(const struct irb_analysis *analysis, const struct irb_question *q)
 {
     const struct irb_analysis_scene *scene = &analysis->scenes[q->scene];
-    struct irb_answer answer = {-1, allocate(scene->trial_count, sizeof(bool)), -1};
-    double least = INFINITY;
+    struct irb_answer answer = {-1, allocate(scene->trial_count, sizeof(bool)),
+                                allocate(scene->trial_count, sizeof(bool)), -1};
+    double *wanted = levelled(scene, q->wanted), least = INFINITY, of_answer = INFINITY;
     for (int t = 0; t < scene->trial_count; t++) {
         double bounded = bounded_of(scene, q, t);
         if (bounded < least) {
             least = bounded;
             answer.nearest = t;
         }
-        if (bounded <= q->bound && (answer.trial < 0 || is_better(scene, q, t, answer.trial)))
+        if (!(bounded <= q->bound))
+            continue;
+        /* less wanted, or as much of it and less of what is bounded */
+        if (answer.trial < 0 || wanted[t] < wanted[answer.trial] ||
+            (wanted[t] == wanted[answer.trial] && bounded < of_answer)) {
             answer.trial = t;
+            of_answer = bounded;
+        }
     }
-    for (int t = 0; answer.trial >= 0 && t < scene->trial_count; t++)
-        answer.as_good[t] = t != answer.trial && bounded_of(scene, q, t) <= q->bound &&
-                            irb_analysis_compare(analysis, q->scene, t, answer.trial, q->wanted) ==
-                                IRB_VERDICT_SAME;
+    if (answer.trial >= 0)
+        find_ties(analysis, q, wanted, &answer);
+    free(wanted);
     return answer;
 }
 
 void irb_answer_free(struct irb_answer *answer)
 {
     free(answer->as_good);
-    answer->as_good = NULL;
+    free(answer->untold);
+    answer->as_good = answer->untold = NULL;
 }
 
 struct irb_bracket irb_bracket(const struct irb_analysis *analysis, const struct irb_question *q)
@@ -146,16 +184,18 @@ static bool front_range(const struct irb_analysis_scene *scene, const char *meth
                         int bounded, double *least, double *most)
 {
     bool *front = allocate(scene->trial_count, sizeof *front);
+    double *values = levelled(scene, bounded);
     irb_scene_front(scene, method, wanted, bounded, front);
     *least = INFINITY;
     *most = -INFINITY;
     for (int t = 0; t < scene->trial_count; t++) {
         if (!front[t])
             continue;
-        *least = fmin(*least, value_of(scene, t, bounded));
-        *most = fmax(*most, value_of(scene, t, bounded));
+        *least = fmin(*least, values[t]);
+        *most = fmax(*most, values[t]);
     }
     free(front);
+    free(values);
     return *least <= *most;
 }
 

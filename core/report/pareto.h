@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
  * What is worth its cost: fronts of a scene's trials, and what a budget buys. Only measured points
- * answer: between two of them is a parameter that nobody ran.
+ * answer: between two of them is a parameter that nobody ran. Partial trials take no part.
+ *
+ * Errors up to the noise's level count as one: which of them is less says nothing about methods,
+ * and the cheaper is as good. The level is the reference's noise, where it is known in the error's
+ * unit, or the largest error of the scene's trials that are not above it; there is none where all
+ * are above.
  */
 #ifndef IRB_REPORT_PARETO_H
 #define IRB_REPORT_PARETO_H
@@ -27,8 +32,9 @@ struct irb_question {
 };
 struct irb_answer {
     int trial;     /* -1 where none meets the bound */
-    bool *as_good; /* trials within the bound that are not distinguishable from it in `wanted` by
-                      the paired ratio, itself not among them; owned */
+    bool *as_good; /* trials within the bound that are as much of `wanted`, or not distinguishable
+                      from it by the paired ratio, itself not among them; owned */
+    bool *untold;  /* trials within the bound of which it is not known: no interval; owned */
     int nearest;   /* the trial with the least `bounded` of all, which says by how much the bound is
                       missed; -1 where no trial has both values */
 };

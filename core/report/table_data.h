@@ -28,6 +28,7 @@ struct irb_table_row {
     struct irb_values regions;
     struct irb_values statistics;              /* means */
     bool same[IRB_METRIC_COUNT];               /* not distinguishable from the best of its scene */
+    bool untold[IRB_METRIC_COUNT];             /* no interval that would say so, or not */
     const struct irb_analysis_trial *measured; /* its intervals, borrowed; NULL for a row a seed */
     char *choices; /* how the scene was scored: eps, exposures; "" where unknown; owned */
 };

@@ -90,6 +90,13 @@ enum irb_mark irb_table_mark(const struct irb_table_group *group, const struct i
     return row->same[column->metric] ? IRB_MARK_SAME : IRB_MARK_NONE;
 }
 
+/* Whether the row has a value that could have been the best. */
+static bool is_ranked(const struct irb_table_group *group, int row, const struct irb_column *column)
+{
+    return !isnan(group->rows[row].metrics[column->metric]) &&
+           group->rows[row].frames == group->frames;
+}
+
 static void find_same(const struct irb_analysis *analysis, int scene, struct irb_table_row *rows,
                       const struct irb_table_group *group, const struct irb_column *column)
 {
@@ -99,11 +106,14 @@ static void find_same(const struct irb_analysis *analysis, int scene, struct irb
         if (irb_table_mark(group, column, &rows[i]) == IRB_MARK_BEST)
             best = &rows[i];
     for (int i = 0; best && i < group->count; i++)
-        if (irb_table_mark(group, column, &rows[i]) == IRB_MARK_NONE)
-            rows[i].same[column->metric] =
+        if (irb_table_mark(group, column, &rows[i]) == IRB_MARK_NONE &&
+            is_ranked(group, i, column)) {
+            enum irb_verdict verdict =
                 irb_analysis_compare(analysis, scene, (int)(rows[i].measured - trials),
-                                     (int)(best->measured - trials),
-                                     column->metric) == IRB_VERDICT_SAME;
+                                     (int)(best->measured - trials), column->metric);
+            rows[i].same[column->metric] = verdict == IRB_VERDICT_SAME;
+            rows[i].untold[column->metric] = verdict == IRB_VERDICT_UNKNOWN;
+        }
 }
 
 void irb_table_find_same(struct irb_table_data *data)
@@ -191,6 +201,37 @@ void irb_table_foot_seeds(const struct irb_table_data *data, bool spread, struct
     irb_str_printf(out, "%s%s", data->provenance, *data->provenance ? "\n" : "");
 }
 
+static bool has_interval(int metric)
+{
+    for (int i = 0; i < IRB_RANKED_METRICS; i++)
+        if (irb_ranked_metrics[i] == metric)
+            return true;
+    return false;
+}
+
+/* Where nothing can be told from the best, having no mark says nothing. */
+static void foot_untold(const struct irb_table_data *data, struct irb_str *out)
+{
+    for (int first = 0; first < data->row_count;) {
+        struct irb_table_group group = irb_table_group_at(data, first);
+        int count = 0;
+        for (int c = 0; c < IRB_COLUMNS; c++) {
+            bool untold = false;
+            for (int i = 0; has_interval(irb_columns[c].metric) && i < group.count; i++)
+                untold = untold || group.rows[i].untold[irb_columns[c].metric];
+            if (untold && !count)
+                irb_str_printf(out,
+                               "%s: too few seeds or frames, or all alike, to tell every trial "
+                               "from the best in ",
+                               group.rows->trial->scene);
+            if (untold)
+                irb_str_printf(out, "%s%s", count++ ? ", " : "", irb_columns[c].title);
+        }
+        irb_str_printf(out, "%s", count ? ".\n" : "");
+        first += group.count;
+    }
+}
+
 void irb_table_foot(const char *best, const struct irb_table_data *data, struct irb_str *out)
 {
     irb_str_printf(out,
@@ -202,5 +243,6 @@ void irb_table_foot(const char *best, const struct irb_table_data *data, struct 
                        ? "= not distinguishable from it (the 95 % interval of their "
                          "paired ratio contains 1); "
                        : "");
+    foot_untold(data, out);
     irb_table_foot_seeds(data, data->has_spread, out);
 }

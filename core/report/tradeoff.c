@@ -172,15 +172,14 @@ static void write_front(const struct writing *w, int s, int cost)
 
 /* ---- the two questions ---- */
 
-static void write_ties(const struct writing *w, const struct irb_question *q,
-                       const struct irb_answer *answer)
+static void write_ties(const struct writing *w, const struct irb_question *q, const bool *ties,
+                       const char *before)
 {
     const struct irb_analysis_scene *scene = scene_of(w, q->scene);
     int count = 0;
     for (int t = 0; t < scene->trial_count; t++)
-        if (answer->as_good[t])
-            irb_str_printf(w->out, "%s%s",
-                           count++ ? ", " : "; not distinguishable: ", scene->trials[t].trial);
+        if (ties[t])
+            irb_str_printf(w->out, "%s%s", count++ ? ", " : before, scene->trials[t].trial);
 }
 
 /* "- least FLIP within 100 ms: acrsm, 0.207 [0.204, 0.211], in 98.1 ms; not distinguishable: ..."
@@ -203,7 +202,8 @@ static void write_answer(const struct writing *w, const struct irb_question *q)
         irb_str_printf(
             w->out, "%s%s", by_time ? " ms" : "",
             trial->at_noise[w->options->metric] ? " (not above the reference's own noise)" : "");
-        write_ties(w, q, &answer);
+        write_ties(w, q, answer.as_good, "; not distinguishable: ");
+        write_ties(w, q, answer.untold, "; too few seeds or frames to tell: ");
     } else if (answer.nearest >= 0) {
         const struct irb_analysis_trial *trial = &scene->trials[answer.nearest];
         irb_str_printf(w->out, "no measured trial; the nearest is %s at ", trial->trial);
@@ -338,7 +338,8 @@ static const char foot[] =
     "read off a straight line in\nlog-log between two measured points of the method's front, a "
     "guess. Intervals are 95 %, from seeds, else rounds (times),\nelse blocks of frames; ratios to "
     "the best are paired, ~ not distinguishable: the interval contains 1. (noise): not above\nthe "
-    "reference's own. Where no budget was given, all methods have a measured trial within each "
+    "reference's own; such errors count as equal, and the cheaper trial comes first. Where no "
+    "budget was given, all methods have a measured trial within each "
     "of\nthose shown.\n";
 
 void irb_tradeoff_write(const struct irb_analysis *analysis,

@@ -59,26 +59,33 @@ static const char titles_begin[] = "scene,wanted,bounded,bound";
 
 /* ---- answers.csv ---- */
 
+static void csv_trials(struct irb_str *out, const struct irb_analysis_scene *scene,
+                       const bool *chosen)
+{
+    struct irb_str names = {0};
+    for (int t = 0; t < scene->trial_count; t++)
+        if (chosen[t])
+            irb_str_printf(&names, "%s%s", names.length ? ";" : "", scene->trials[t].trial);
+    csv_cell(out, irb_str_text(&names));
+    irb_str_free(&names);
+}
+
 static void answer_line(const struct line *l, struct irb_str *out)
 {
     const struct irb_analysis_scene *scene = &l->analysis->scenes[l->question.scene];
     struct irb_answer answer = irb_ask(l->analysis, &l->question);
     const struct irb_analysis_trial *trial = trial_of(l, answer.trial);
     const struct irb_analysis_trial *nearest = trial ? NULL : trial_of(l, answer.nearest);
-    struct irb_str ties = {0};
-    for (int t = 0; t < scene->trial_count; t++)
-        if (answer.as_good[t])
-            irb_str_printf(&ties, "%s%s", ties.length ? ";" : "", scene->trials[t].trial);
     begin_line(l, out);
     csv_cell(out, trial ? trial->method : "");
     csv_trial(out, trial);
     csv_wanted(out, trial, l->question.wanted);
     irb_csv_number(out, value_of(trial, l->question.bounded));
-    csv_cell(out, irb_str_text(&ties));
+    csv_trials(out, scene, answer.as_good);
     csv_trial(out, nearest);
     irb_csv_number(out, value_of(nearest, l->question.bounded));
+    csv_trials(out, scene, answer.untold);
     irb_str_printf(out, "\n");
-    irb_str_free(&ties);
     irb_answer_free(&answer);
 }
 
@@ -104,7 +111,7 @@ static void answers_csv(const struct irb_analysis *analysis,
 {
     irb_str_printf(out,
                    "%s,method,trial,value,low,high,unit,bounded_value,not_distinguishable,nearest,"
-                   "nearest_bounded_value\n",
+                   "nearest_bounded_value,too_few_units\n",
                    titles_begin);
     for_each_budget(analysis, options, true, answer_line, out);
     for_each_budget(analysis, options, false, answer_line, out);

@@ -74,6 +74,31 @@ static void add_point(struct irb_store *store, const char *scene, const char *me
     }
 }
 
+/* Scene "noise": FLIP, relMSE and time of five trials, of which three are not above the reference's
+ * noise of 0.1 (relMSE). */
+static const struct {
+    const char *name;
+    double flip, relmse, ms;
+} noisy[] = {{"below", 0.3, 0.05, 20},
+             {"cheap", 0.4, 0.09, 10},
+             {"above", 0.9, 0.2, 5},
+             {"exact", 0.25, 0.02, 40},
+             {"odd", 0.35, 0.3, 4}};
+
+static void fill_noise(struct irb_store *store)
+{
+    for (size_t t = 0; t < sizeof noisy / sizeof *noisy; t++)
+        for (int seed = 0; seed < 3; seed++) {
+            int64_t id = trials_add(store, "noise", "m", noisy[t].name, "{}", seed);
+            double jitter = 1 + 0.01 * (seed - 1);
+            const struct irb_store_value values[] = {{"indirect_flip", noisy[t].flip * jitter},
+                                                     {"indirect_relmse", noisy[t].relmse * jitter},
+                                                     {"reference_noise", 0.1}};
+            trials_scores(store, id, -1, values, 3);
+            trials_time(store, id, 0, noisy[t].ms * (1 + 0.001 * seed));
+        }
+}
+
 static struct irb_analysis analysis;
 
 static int set_up(void **state)
@@ -99,6 +124,7 @@ static int set_up(void **state)
     add_point(store, "apart", "b", "b", 1, 0, 20);
     add_point(store, "apart", "b", "b:slow", 0.5, 0, 80);
     trials_add(store, "bare", "a", "a", "{}", 1);
+    fill_noise(store);
     return irb_analysis_read(&analysis, store, 0.95, &err) ? 0 : -1;
 }
 
@@ -225,12 +251,62 @@ static void test_budgets(void **state)
     assert_int_equal(irb_common_budgets(scene, M(indirect_flip), M(frame_ms), budgets), 0);
 }
 
+static void expect_front(int error, bool below, bool cheap, bool above, bool exact, bool odd)
+{
+    bool front[5];
+    irb_scene_front(&analysis.scenes[irb_analysis_scene_find(&analysis, "noise")], NULL, error,
+                    M(frame_ms), front);
+    const bool expected[] = {below, cheap, above, exact, odd};
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(front[i], expected[i]);
+}
+
+/* Below the noise there is no less: the cheapest is as good as any. */
+static void test_noise(void **state)
+{
+    (void)state;
+    expect_front(M(indirect_relmse), false, true, true, false, true);
+    /* the noise makes a FLIP of up to 0.4 */
+    expect_front(M(indirect_flip), false, false, false, false, true);
+    struct irb_question q = {irb_analysis_scene_find(&analysis, "noise"), M(indirect_relmse),
+                             M(frame_ms), 50, NULL};
+    struct irb_answer answer = irb_ask(&analysis, &q);
+    assert_int_equal(answer.trial, trial("noise", "cheap"));
+    assert_true(answer.as_good[trial("noise", "below")]);
+    assert_true(answer.as_good[trial("noise", "exact")]);
+    assert_false(answer.as_good[trial("noise", "above")]);
+    assert_false(answer.untold[trial("noise", "above")]);
+    irb_answer_free(&answer);
+    /* what was measured meets a bound */
+    q = (struct irb_question){q.scene, M(frame_ms), M(indirect_relmse), 0.06, NULL};
+    answer = irb_ask(&analysis, &q);
+    assert_int_equal(answer.trial, trial("noise", "below"));
+    irb_answer_free(&answer);
+    /* and no budget asks for less than the noise */
+    double budgets[IRB_MOST_BUDGETS];
+    irb_common_budgets(&analysis.scenes[q.scene], M(frame_ms), M(indirect_relmse), budgets);
+    REQUIRE_NEAR(budgets[0], 0.1, 0);
+}
+
+/* Values without an interval, of which one is the least. */
+static void test_untold(void **state)
+{
+    (void)state;
+    struct irb_question q = least_error("apart", 100, NULL);
+    struct irb_answer answer = irb_ask(&analysis, &q);
+    assert_int_equal(answer.trial, trial("apart", "b:slow"));
+    assert_true(answer.untold[trial("apart", "a")] && answer.untold[trial("apart", "b")]);
+    assert_false(answer.untold[answer.trial] || answer.as_good[trial("apart", "a")]);
+    irb_answer_free(&answer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fronts),   cmocka_unit_test(test_questions),
         cmocka_unit_test(test_brackets), cmocka_unit_test(test_ties_and_misses),
-        cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_budgets),  cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_untold),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

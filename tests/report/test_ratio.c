@@ -79,6 +79,12 @@ static void test_marks(void **state)
     expect(text,
            "; = not distinguishable from it (the 95 % interval of their paired ratio contains 1)",
            true);
+    /* nothing is known of lone in any column, nor of quiet's FLIP, which is not ranked */
+    expect(text,
+           "\nbox: too few seeds or frames, or all alike, to tell every trial from the best in "
+           "relMSE, FLIP, frame, p95.\n",
+           true);
+    expect(text, "\nother: ", false);
     free(text);
     text = write_table(*state, (struct irb_table_options){.format = IRB_TABLE_MD});
     expect(text, " **0.110** ", true);

@@ -243,6 +243,8 @@ static void test_text(void **state)
     assert_null(strstr(text, "solution"));
     expect_words(text, "times: finish+clock on a device\n");
     expect_words(text, "* best of its column and scene; ~ not above the reference's own noise");
+    expect_words(text, "\ncornell: too few seeds or frames, or all alike, to tell every trial from "
+                       "the best in relMSE, RMSE, energy, flicker, frame, p95.\n");
     free(text);
 }
 
