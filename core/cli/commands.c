@@ -32,7 +32,7 @@ static bool print_table(const struct irb_cli *cli, const char *run_dir, struct i
     struct irb_table_options options;
     if (!table_options(cli, &options, err))
         return false;
-    struct irb_store *store = irb_store_open(run_dir, false, err);
+    struct irb_store *store = irb_store_open_snapshot(run_dir, err);
     if (!store)
         return false;
     bool ok = irb_table_write(stdout, store, &options, err);
@@ -83,7 +83,7 @@ static bool print_figure(const struct irb_cli *cli, const char *run_dir, struct 
     if (cli->format && strcmp(cli->format, "csv"))
         return irb_fail(err, IRB_E_USAGE,
                         "format: a figure's numbers are printed as csv, not as %s", cli->format);
-    struct irb_store *store = irb_store_open(run_dir, false, err);
+    struct irb_store *store = irb_store_open_snapshot(run_dir, err);
     if (!store)
         return false;
     bool ok = irb_figure_csv(stdout, store, figure, NULL, err);

@@ -45,7 +45,7 @@ static bool draw(struct irb_cli *cli, enum irb_figure figure, const char *format
                  const struct irb_plot_options *options, struct irb_error *err)
 {
     struct irb_analysis analysis;
-    struct irb_store *store = irb_store_open(cli->arguments[0], false, err);
+    struct irb_store *store = irb_store_open_snapshot(cli->arguments[0], err);
     bool read = store && irb_analysis_read(&analysis, store, IRB_CONFIDENCE, err);
     irb_store_close(store);
     if (!read)

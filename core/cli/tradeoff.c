@@ -82,7 +82,7 @@ bool irb_command_tradeoff(struct irb_cli *cli, struct irb_error *err)
         return false;
     if (there)
         cli->run_dir = irb_strdup(cli->arguments[0]);
-    struct irb_store *store = irb_store_open(cli->run_dir, false, err);
+    struct irb_store *store = irb_store_open_snapshot(cli->run_dir, err);
     bool ok = store && answer(cli, cli->run_dir, store, &options, format, err);
     irb_store_close(store);
     return ok;

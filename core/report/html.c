@@ -226,7 +226,7 @@ bool irb_html_write(const char *run_dir, const char *path, const struct irb_html
     const double rest = 0.4e6; /* bytes of a page without figures and images: generous */
     struct irb_html_page page = {.run_dir = run_dir, .options = options};
     struct irb_str before = {0}, behind = {0};
-    page.store = irb_store_open(run_dir, false, err);
+    page.store = irb_store_open_snapshot(run_dir, err);
     bool ok = page.store && gather(&page, err);
     if (ok) {
         find_others(&page);

@@ -182,6 +182,18 @@ struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_er
     return store;
 }
 
+struct irb_store *irb_store_open_snapshot(const char *run_dir, struct irb_error *err)
+{
+    /* the first to read is what fixes the moment; closing ends the transaction */
+    static const char sql[] = "BEGIN DEFERRED; SELECT count(*) FROM main.meta";
+    struct irb_store *store = irb_store_open(run_dir, false, err);
+    if (store && !irb_store_exec(store, sql, "read", err)) {
+        irb_store_close(store);
+        return NULL;
+    }
+    return store;
+}
+
 void irb_store_close(struct irb_store *store)
 {
     if (!store)

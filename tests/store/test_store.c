@@ -285,6 +285,32 @@ static void test_reader_beside_a_writer(void **state)
     irb_store_close(writer);
 }
 
+/* A snapshot keeps to its moment, and keeps nobody from writing. */
+static void test_snapshot_beside_a_writer(void **state)
+{
+    const struct fixture *f = *state;
+    struct irb_error err = {0};
+    int64_t trial;
+    struct irb_store *writer = open_or_fail(f, true);
+    fill(writer, &trial);
+    struct irb_store *snapshot = irb_store_open_snapshot(f->run, &err);
+    assert_non_null(snapshot);
+    const struct irb_store_value metric[] = {{"rmse", 7}};
+    REQUIRE_OK(irb_store_scores(writer, trial, 1, metric, 1, &err));
+    REQUIRE_OK(irb_store_set_meta(writer, "later", "yes", &err));
+    struct values v = {0};
+    REQUIRE_OK(irb_store_read_scores(snapshot, trial, collect, &v, &err));
+    assert_int_equal(v.count, 4);
+    assert_null(irb_store_get_meta(snapshot, "later"));
+    irb_store_close(snapshot);
+    snapshot = irb_store_open_snapshot(f->run, &err);
+    char *later = irb_store_get_meta(snapshot, "later");
+    assert_string_equal(later, "yes");
+    free(later);
+    irb_store_close(snapshot);
+    irb_store_close(writer);
+}
+
 /* What a killed process had stored is there for the next one. */
 static void test_killed_writer(void **state)
 {
@@ -526,14 +552,23 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        CASE(test_round_trip),         CASE(test_trials_are_found_again),
-        CASE(test_replacing),          CASE(test_all_or_nothing),
-        CASE(test_repeats_and_costs),  CASE(test_reader_beside_a_writer),
-        CASE(test_killed_writer),      CASE(test_missing),
-        CASE(test_other_schema),       CASE(test_schema_1_read),
-        CASE(test_schema_1_converted), CASE(test_schema_1_whole_or_not),
-        CASE(test_other_database),     CASE(test_no_database),
-        CASE(test_truncated),          CASE(test_unwritable),
+        CASE(test_round_trip),
+        CASE(test_trials_are_found_again),
+        CASE(test_replacing),
+        CASE(test_all_or_nothing),
+        CASE(test_repeats_and_costs),
+        CASE(test_reader_beside_a_writer),
+        CASE(test_snapshot_beside_a_writer),
+        CASE(test_killed_writer),
+        CASE(test_missing),
+        CASE(test_other_schema),
+        CASE(test_schema_1_read),
+        CASE(test_schema_1_converted),
+        CASE(test_schema_1_whole_or_not),
+        CASE(test_other_database),
+        CASE(test_no_database),
+        CASE(test_truncated),
+        CASE(test_unwritable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
