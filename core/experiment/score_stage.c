@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Score: every rendered frame against the reference. Frames are the outer loop, so that each
- * reference is read once; the trials of a frame are scored in parallel.
+ * Score: every rendered frame against the reference. Frames are the outer loop, so that a
+ * reference is read once for many trials; these are scored in parallel. All of them are, or as many
+ * as there is memory for.
  */
 #include "core/base/clock.h"
 #include "core/base/fs.h"
@@ -36,6 +37,8 @@ struct scoring {
     atomic_int made; /* trials of the frame, for progress */
     struct trial_scores *trials;
     int trial_count;
+    struct trial_scores *batch; /* those of them that go over the sequence together */
+    int batch_count;
 };
 
 static bool score_and_film(const struct scoring *s, struct trial_scores *trial,
@@ -59,7 +62,7 @@ static bool score_and_film(const struct scoring *s, struct trial_scores *trial,
 static bool score_trial(void *user, int index, int thread)
 {
     struct scoring *s = user;
-    struct trial_scores *trial = &s->trials[index];
+    struct trial_scores *trial = &s->batch[index];
     int frame = s->frame;
     if (irb_frame_scores_present(&trial->frames[frame]))
         return true;
@@ -93,8 +96,8 @@ static bool score_trial(void *user, int index, int thread)
 static bool store_fresh(struct scoring *s, struct irb_error *err)
 {
     irb_run_work(s->run, IRB_WORK_STORE);
-    for (int t = 0; t < s->trial_count; t++) {
-        struct trial_scores *trial = &s->trials[t];
+    for (int t = 0; t < s->batch_count; t++) {
+        struct trial_scores *trial = &s->batch[t];
         if (!trial->fresh[s->frame])
             continue;
         if (!irb_frame_scores_store(&trial->frames[s->frame], s->run->store, &trial->trial,
@@ -106,11 +109,11 @@ static bool store_fresh(struct scoring *s, struct irb_error *err)
 }
 
 /* Trials of which the frame has no scores. */
-static int count_missing(const struct scoring *s, int frame)
+static int count_missing(const struct trial_scores *trials, int count, int frame)
 {
     int missing = 0;
-    for (int t = 0; t < s->trial_count; t++)
-        missing += !irb_frame_scores_present(&s->trials[t].frames[frame]);
+    for (int t = 0; t < count; t++)
+        missing += !irb_frame_scores_present(&trials[t].frames[frame]);
     return missing;
 }
 
@@ -134,10 +137,10 @@ static bool score_one_frame(struct scoring *s, struct irb_error *err)
                          &s->constants, err))
         return false;
     atomic_store(&s->made, 0);
-    if (!irb_parallel_for(s->trial_count, s->run->options->threads, score_trial, s)) {
-        for (int t = 0; t < s->trial_count; t++)
-            if (s->trials[t].err.code != IRB_E_OK && err)
-                *err = s->trials[t].err;
+    if (!irb_parallel_for(s->batch_count, s->run->options->threads, score_trial, s)) {
+        for (int t = 0; t < s->batch_count; t++)
+            if (s->batch[t].err.code != IRB_E_OK && err)
+                *err = s->batch[t].err;
         return false;
     }
     return store_fresh(s, err);
@@ -158,25 +161,46 @@ static bool open_films(const struct scoring *s, struct irb_error *err)
     return ok;
 }
 
-static bool score_frames(struct scoring *s, struct irb_error *err)
+/* The batch's frames; the trials before it have all their scores. */
+static bool score_batch(struct scoring *s, double start_s, struct irb_error *err)
 {
-    double start = irb_clock_s();
-    if (!open_films(s, err))
-        return false;
-    for (s->frame = 0; s->frame < s->sequence->frame_count; s->frame++) {
+    int frames = s->sequence->frame_count;
+    double before = (double)(s->batch - s->trials);
+    for (s->frame = 0; s->frame < frames; s->frame++) {
         if (irb_run_stopped(s->run, err))
             return false;
-        int missing = count_missing(s, s->frame);
-        irb_progress_skip(&s->run->progress, IRB_PROGRESS_SCORE, s->trial_count - missing);
+        int missing = count_missing(s->batch, s->batch_count, s->frame);
+        irb_progress_skip(&s->run->progress, IRB_PROGRESS_SCORE, s->batch_count - missing);
         if (missing && !score_one_frame(s, err))
             return false;
         if (missing)
             irb_run_step(s->run, missing);
-        irb_log_progress(s->run->log, "score", (s->frame + 1.0) / s->sequence->frame_count,
-                         irb_clock_s() - start);
+        irb_log_progress(s->run->log, "score",
+                         (before + s->batch_count * (s->frame + 1.0) / frames) / s->trial_count,
+                         irb_clock_s() - start_s);
     }
-    irb_log_progress_done(s->run->log);
     return true;
+}
+
+static bool score_frames(struct scoring *s, struct irb_error *err)
+{
+    const struct irb_render_settings *render = &s->run->config->render;
+    /* the last frame's two images */
+    size_t bytes = 2 * 3 * sizeof(float) * (size_t)render->width * (size_t)render->height;
+    int most = irb_run_batch(s->run, bytes);
+    double start_s = irb_clock_s();
+    bool ok = open_films(s, err);
+    for (int t = 0; ok && t < s->trial_count; t += most) {
+        s->batch = s->trials + t;
+        s->batch_count = s->trial_count - t < most ? s->trial_count - t : most;
+        ok = score_batch(s, start_s, err);
+        for (int i = 0; i < s->batch_count; i++)
+            irb_scored_frame_destroy(&s->batch[i].previous);
+        irb_target_pair_destroy(&s->targets);
+    }
+    if (ok)
+        irb_log_progress_done(s->run->log);
+    return ok;
 }
 
 static bool open_trials(struct scoring *s, struct irb_error *err)
@@ -253,7 +277,7 @@ static bool anything_to_do(const struct scoring *s)
 {
     bool todo = false;
     for (int i = 0; !todo && i < s->sequence->frame_count; i++) {
-        todo = count_missing(s, i) > 0;
+        todo = count_missing(s->trials, s->trial_count, i) > 0;
         for (int t = 0; !todo && t < s->trial_count; t++) {
             char *path = irb_run_file(s->run->dir, s->sequence->entry->name,
                                       s->trials[t].trial.trial->folder, "frame", i, "exr");

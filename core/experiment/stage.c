@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/experiment/stage.h"
 #include "core/base/clock.h"
+#include "core/base/parallel.h"
 #include "core/base/str.h"
 
 #include <math.h>
@@ -96,6 +97,15 @@ bool irb_run_end(struct irb_run *run, bool whole, struct irb_error *err)
         return true; /* it has not begun, and another one may have been whole */
     return whole ? irb_store_set_meta(run->store, "progress", "done", err)
                  : store_progress(run, "stopped", err);
+}
+
+int irb_run_batch(const struct irb_run *run, size_t trial_bytes)
+{
+    static const size_t usual_bytes = (size_t)1 << 30; /* source: ours */
+    size_t bytes = run->options->batch_bytes ? run->options->batch_bytes : usual_bytes;
+    size_t fit = trial_bytes ? bytes / trial_bytes : IRB_MOST_TRIALS;
+    size_t threads = (size_t)(run->options->threads > 0 ? run->options->threads : irb_core_count());
+    return (int)(fit < threads ? threads : fit > IRB_MOST_TRIALS ? IRB_MOST_TRIALS : fit);
 }
 
 bool irb_run_stopped(const struct irb_run *run, struct irb_error *err)

@@ -36,9 +36,10 @@ struct irb_run_options {
     unsigned stages;         /* enum irb_stage */
     const char *const *only; /* names of the trials to run; NULL or only_count 0 = all */
     int only_count;
-    double minutes; /* after these no new round begins but each scene's first, and one that is
-                       missing in any case; 0 = no limit */
-    bool keep_all;  /* keep every frame's image, not only first, middle, worst and last */
+    double minutes;     /* after these no new round begins but each scene's first, and one that is
+                           missing in any case; 0 = no limit */
+    size_t batch_bytes; /* see irb_run_batch(); 0 = 1 GiB */
+    bool keep_all;      /* keep every frame's image, not only first, middle, worst and last */
     const char *command_line;
     struct irb_log *log;               /* may be NULL */
     const volatile sig_atomic_t *stop; /* set on Ctrl-C; may be NULL */
@@ -89,6 +90,9 @@ void irb_run_part(struct irb_run *run, double units);
 void irb_run_watch(struct irb_run *run, bool on);
 /* The end of the command; `whole` where with it the run is. */
 bool irb_run_end(struct irb_run *run, bool whole, struct irb_error *err);
+/* Trials that go over a sequence together where each holds so many bytes meanwhile; at least one a
+ * thread. */
+int irb_run_batch(const struct irb_run *run, size_t trial_bytes);
 bool irb_run_stopped(const struct irb_run *run, struct irb_error *err);
 /* Creates the GL context if there is none yet. */
 bool irb_run_need_gl(struct irb_run *run, struct irb_error *err);

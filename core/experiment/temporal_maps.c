@@ -15,9 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Trials whose pixels fit into this go over the sequence together. Source: ours. */
-static const size_t most_bytes = (size_t)1 << 30;
-
 /* One trial on its way through the sequence. */
 struct growing {
     const struct irb_scored_trial *trial;
@@ -245,9 +242,7 @@ static int batch_size(const struct irb_keep *keep)
     const struct irb_render_settings *render = &keep->run->config->render;
     size_t pixel = 3 * sizeof(float) + 16; /* of the last frame, and of the sum */
     size_t rows = (size_t)render->height + (size_t)profile_rows(keep);
-    size_t fit = most_bytes / (pixel * (size_t)render->width * rows);
-    size_t threads = (size_t)irb_core_count();
-    return (int)(fit < threads ? threads : fit > IRB_MOST_TRIALS ? IRB_MOST_TRIALS : fit);
+    return irb_run_batch(keep->run, pixel * (size_t)render->width * rows);
 }
 
 bool irb_temporal_maps_write(const struct irb_keep *keep, struct irb_error *err)
