@@ -83,10 +83,14 @@ static bool print_figure(const struct irb_cli *cli, const char *run_dir, struct 
     if (cli->format && strcmp(cli->format, "csv"))
         return irb_fail(err, IRB_E_USAGE,
                         "format: a figure's numbers are printed as csv, not as %s", cli->format);
+    if (cli->subject != IRB_TABLE_SCORES || cli->per_seed || cli->only_count)
+        return irb_fail(err, IRB_E_USAGE,
+                        "--figure goes with --scene alone; leave out --stages, --statistics, "
+                        "--frames, --ratio, --per-seed and --only");
     struct irb_store *store = irb_store_open_snapshot(run_dir, err);
     if (!store)
         return false;
-    bool ok = irb_figure_csv(stdout, store, figure, NULL, err);
+    bool ok = irb_figure_csv(stdout, store, figure, cli->scene, err);
     irb_store_close(store);
     return ok;
 }
@@ -95,6 +99,8 @@ bool irb_command_table(struct irb_cli *cli, struct irb_error *err)
 {
     if (cli->figure)
         return print_figure(cli, cli->arguments[0], err);
+    if (cli->scene)
+        return irb_fail(err, IRB_E_USAGE, "--scene: a table has all scenes; --figure takes one");
     return print_table(cli, cli->arguments[0], err);
 }
 

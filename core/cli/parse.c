@@ -346,7 +346,7 @@ const struct irb_cli_option irb_cli_options[] = {
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},
     {"--kind", NULL, "KIND", "plot: pareto, stages, timeline, convergence or flicker", set_kind},
-    {"--scene", NULL, "NAME", "plot: this scene alone (default: a panel for each)", set_scene},
+    {"--scene", NULL, "NAME", "plot, table --figure: this scene alone (default: all)", set_scene},
     {"--metric", NULL, "NAME",
      "plot, tradeoff: indirect_flip, indirect_rmse, indirect_relmse or indirect_flicker; for "
      "tradeoff "

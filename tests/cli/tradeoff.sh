@@ -44,5 +44,11 @@ has "$work/ratios" "cornell: ratios to ism:vpls=16:point_count=4096"
 expect 2 "did you mean 'ism:vpls=16:point_count=4096'" "$IRBENCH" table "$work/run" --ratio ism:vpls=16:point_count=409
 "$IRBENCH" table "$work/run" --figure convergence >"$work/convergence"
 has "$work/convergence" "cornell,rsm,rsm:mode=uniform,samples,64,"
+"$IRBENCH" table "$work/run" --figure convergence --scene cornell >"$work/scene"
+check "a figure's numbers of one scene" cmp "$work/convergence" "$work/scene"
+expect 3 "attic" "$IRBENCH" table "$work/run" --figure convergence --scene attic
+expect 2 "--figure goes with --scene alone" "$IRBENCH" table "$work/run" --figure convergence --ratio ism:vpls=16:point_count=4096
+expect 2 "--figure goes with --scene alone" "$IRBENCH" table "$work/run" --figure pareto --per-seed
+expect 2 "--scene: a table has all scenes" "$IRBENCH" table "$work/run" --scene cornell
 expect 2 "figure: expected pareto" "$IRBENCH" table "$work/run" --figure pie
 finish
