@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/base/fs.h"
+#include "core/base/hash.h"
 #include "core/base/str.h"
 
 #include <dirent.h>
@@ -118,4 +119,15 @@ bool irb_fs_write(const char *path, const void *data, size_t size, struct irb_er
     ok = ok && irb_fs_commit(temp, path, err);
     free(temp);
     return ok;
+}
+
+char *irb_fs_short_name(const char *name)
+{
+    enum { LONGEST = 200, KEPT = 160 };
+    if (strlen(name) <= LONGEST)
+        return irb_strdup(name);
+    struct irb_hash *hash = irb_hash_create();
+    irb_hash_string(hash, name);
+    struct irb_key key = irb_hash_finish(hash);
+    return irb_asprintf("%.*s-%.8s", KEPT, name, key.hex);
 }

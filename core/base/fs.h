@@ -22,6 +22,9 @@ bool irb_fs_write(const char *path, const void *data, size_t size, struct irb_er
  * irb_fs_commit removes the temporary file. */
 char *irb_fs_temp_name(const char *path);
 bool irb_fs_commit(const char *temp, const char *path, struct irb_error *err);
+/* The name itself, or, where it is longer than a file's may be, its beginning and a hash of it. The
+ * folder of a trial with many parameters or keys has this name. Malloc'ed. */
+char *irb_fs_short_name(const char *name);
 /* Removes temporary files in the folder whose process is gone: what a killed run left behind. */
 void irb_fs_remove_stale(const char *folder);
 

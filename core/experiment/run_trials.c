@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/experiment/run_trials.h"
+#include "core/base/fs.h"
 #include "core/base/str.h"
 #include "core/experiment/render_trial.h"
 
@@ -35,18 +36,6 @@ static bool select_trials(bool wanted[IRB_MOST_TRIALS], const struct irb_config 
     return true;
 }
 
-/* A trial with many parameters or keys has a longer name than a file may have. Malloc'ed. */
-static char *folder_name(const char *trial)
-{
-    enum { LONGEST = 200, KEPT = 160 };
-    if (strlen(trial) <= LONGEST)
-        return irb_strdup(trial);
-    struct irb_hash *hash = irb_hash_create();
-    irb_hash_string(hash, trial);
-    struct irb_key key = irb_hash_finish(hash);
-    return irb_asprintf("%.*s-%.8s", KEPT, trial, key.hex);
-}
-
 bool irb_run_trials(struct irb_config *selected, const struct irb_config *config,
                     const struct irb_run_options *options, struct irb_error *err)
 {
@@ -64,7 +53,7 @@ bool irb_run_trials(struct irb_config *selected, const struct irb_config *config
             struct irb_trial *trial = &selected->trials[selected->trial_count++];
             *trial = config->trials[i];
             trial->seed = config->seeds[s];
-            char *name = folder_name(trial->name);
+            char *name = irb_fs_short_name(trial->name);
             trial->folder = config->seed_count > 1 ? irb_asprintf("%s/seed-%d", name, trial->seed)
                                                    : irb_strdup(name);
             free(name);

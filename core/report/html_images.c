@@ -87,16 +87,20 @@ static char *folder_with(const char *run, const char *scene, char *folder, const
 static char *trial_folder(const char *run, const char *scene,
                           const struct irb_analysis_trial *trial, int *seed)
 {
-    char *folder = NULL;
-    for (*seed = 0; *seed < trial->seed_count; ++*seed) {
-        folder = irb_asprintf("%s/seed-%d", trial->trial, trial->seeds[*seed].seed);
-        if ((folder = folder_with(run, scene, folder, "film")))
-            return folder;
+    char *name = irb_fs_short_name(trial->trial), *folder = NULL;
+    for (*seed = 0; !folder && *seed < trial->seed_count; ++*seed) {
+        folder = irb_asprintf("%s/seed-%d", name, trial->seeds[*seed].seed);
+        folder = folder_with(run, scene, folder, "film");
     }
-    *seed = 0;
-    folder = irb_asprintf("%s/seed-%d", trial->trial, trial->seeds[0].seed);
-    folder = folder_with(run, scene, folder, "");
-    return folder ? folder : irb_strdup(trial->trial);
+    *seed = folder ? *seed - 1 : 0;
+    if (!folder) {
+        folder = irb_asprintf("%s/seed-%d", name, trial->seeds[0].seed);
+        folder = folder_with(run, scene, folder, "");
+    }
+    if (!folder)
+        return name;
+    free(name);
+    return folder;
 }
 
 static void find_worst(struct irb_html_trial_images *images, const struct irb_analysis_seed *seed)

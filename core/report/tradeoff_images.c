@@ -28,16 +28,19 @@ static int frames_of(const struct irb_analysis_scene *scene)
 static char *image_path(const char *run_dir, const struct irb_analysis_scene *scene, int trial)
 {
     const struct irb_analysis_trial *of = &scene->trials[trial];
-    char *path = NULL;
+    char *path = NULL, *folder = irb_fs_short_name(of->trial);
     for (int seeds = 0; seeds < 2; seeds++) { /* in a folder of the seed where there are several */
         char *seed = seeds ? irb_asprintf("/seed-%d", of->seeds[0].seed) : irb_strdup("");
         free(path);
-        path = irb_asprintf("%s/%s/%s%s/image-%04d.exr", run_dir, scene->name, of->trial, seed,
+        path = irb_asprintf("%s/%s/%s%s/image-%04d.exr", run_dir, scene->name, folder, seed,
                             frames_of(scene) / 2);
         free(seed);
-        if (irb_fs_exists(path))
+        if (irb_fs_exists(path)) {
+            free(folder);
             return path;
+        }
     }
+    free(folder);
     free(path);
     return NULL;
 }

@@ -245,12 +245,33 @@ static void test_no_data(void **state)
     assert_int_equal(err.code, IRB_E_INPUT);
 }
 
+/* Folders of trials whose names are longer than a file's may be. */
+static void test_short_names(void **state)
+{
+    (void)state;
+    char longer[302], other[302];
+    memset(longer, 'x', 301);
+    longer[301] = 0;
+    strcpy(other, longer);
+    other[300] = 'y';
+    char *a = irb_fs_short_name(longer), *b = irb_fs_short_name(other),
+         *c = irb_fs_short_name("ism:vpls=16");
+    REQUIRE_CMP(strlen(a), <=, 200);
+    assert_int_equal(strncmp(a, longer, 160), 0);
+    assert_string_not_equal(a, b);
+    assert_string_equal(c, "ism:vpls=16");
+    free(a);
+    free(b);
+    free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_metric_names), cmocka_unit_test(test_budgets),
         cmocka_unit_test(test_answers),      cmocka_unit_test(test_files),
-        cmocka_unit_test(test_images),       cmocka_unit_test(test_no_data),
+        cmocka_unit_test(test_short_names),  cmocka_unit_test(test_images),
+        cmocka_unit_test(test_no_data),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
