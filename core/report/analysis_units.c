@@ -13,20 +13,16 @@
 
 double irb_trial_value(const struct irb_analysis_trial *trial, int metric)
 {
-    double sum = 0, largest = -INFINITY, smallest = INFINITY;
-    int n = 0;
+    double largest = NAN, *values = malloc(((size_t)trial->seed_count + 1) * sizeof *values);
+    if (!values)
+        abort();
     for (int i = 0; i < trial->seed_count; i++) {
-        double v = trial->seeds[i].values[metric];
-        if (isnan(v))
-            continue;
-        sum += v;
-        largest = v > largest ? v : largest;
-        smallest = v < smallest ? v : smallest;
-        n++;
+        values[i] = trial->seeds[i].values[metric];
+        largest = fmax(largest, values[i]);
     }
-    if (!n)
-        return NAN;
-    return largest == smallest || metric == M(frame_ms_worst) ? largest : sum / n;
+    double mean = irb_mean_over_seeds(values, trial->seed_count);
+    free(values);
+    return metric == M(frame_ms_worst) ? largest : mean;
 }
 
 /* ---- which frames and rounds make up a metric ---- */

@@ -59,6 +59,8 @@ void irb_table_order_stages(struct irb_names *stages, struct irb_store *store,
 /* For irb_table_data_read(): rows of the same trial become one, the mean of every number (of
  * frame_ms_worst the largest); values that are not there do not count (table_seeds.c). */
 void irb_table_data_merge_seeds(struct irb_table_data *data);
+/* That mean: of the values that are not NaN, exact where they are equal; NaN without any. */
+double irb_mean_over_seeds(const double *values, int count);
 void irb_table_row_free(struct irb_table_row *row);
 void irb_table_data_destroy(struct irb_table_data *data);
 

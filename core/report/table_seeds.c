@@ -3,6 +3,7 @@
 #include "core/report/table_partial.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool same_trial(const struct irb_table_row *a, const struct irb_table_row *b)
@@ -33,29 +34,41 @@ static double *statistic_of(struct irb_table_row *row, int index)
     return &row->statistics.list[index];
 }
 
+double irb_mean_over_seeds(const double *values, int count)
+{
+    double sum = 0, largest = -INFINITY, smallest = INFINITY;
+    int n = 0;
+    for (int i = 0; i < count; i++) {
+        if (isnan(values[i]))
+            continue;
+        sum += values[i];
+        largest = values[i] > largest ? values[i] : largest;
+        smallest = values[i] < smallest ? values[i] : smallest;
+        n++;
+    }
+    return !n ? NAN : largest == smallest ? largest : sum / n;
+}
+
 /* Mean and sample standard deviation of what is there, NaN without enough of it. The mean is taken
  * first, so that equal values have a spread of exactly 0. */
 static double mean_of(struct irb_table_row *rows, int count, value_fn value, int index,
                       double *spread)
 {
-    double sum = 0, largest = -INFINITY, smallest = INFINITY, squares = 0;
+    double *values = malloc((size_t)count * sizeof *values), squares = 0;
     int n = 0;
+    if (!values)
+        abort();
+    for (int i = 0; i < count; i++)
+        values[i] = *value(&rows[i], index);
+    double mean = irb_mean_over_seeds(values, count);
     for (int i = 0; i < count; i++) {
-        double v = *value(&rows[i], index);
-        if (isnan(v))
-            continue;
-        sum += v;
-        largest = v > largest ? v : largest;
-        smallest = v < smallest ? v : smallest;
-        n++;
-    }
-    double mean = !n ? NAN : largest == smallest ? largest : sum / n;
-    for (int i = 0; i < count; i++) {
-        double d = *value(&rows[i], index) - mean;
+        double d = values[i] - mean;
         squares += isnan(d) ? 0 : d * d;
+        n += !isnan(values[i]);
     }
     if (spread)
         *spread = n > 1 && isfinite(mean) ? sqrt(squares / (n - 1)) : NAN;
+    free(values);
     return mean;
 }
 

@@ -2,6 +2,7 @@
 #include "core/stats/blocks.h"
 
 #include "core/stats/interval.h"
+#include "core/stats/mean.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -12,19 +13,11 @@ enum { LEAST_BLOCK = 32 }; /* frames; see the header */
 /* In units of the frames that a block's variance seems short by; see the header. */
 static const double BLOCK_LENGTH = 7;
 
-static double mean_of(const double *frames, int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++)
-        sum += frames[i] - frames[0];
-    return frames[0] + sum / count;
-}
-
 /* Of each frame with the one before, less the bias that the unknown mean makes (Marriott and Pope
  * 1954). */
 static double correlation_of(const double *frames, int count)
 {
-    double mean = mean_of(frames, count), squares = 0, products = 0, last = 0;
+    double mean = irb_mean(frames, count), squares = 0, products = 0, last = 0;
     for (int i = 0; i < count; i++) {
         double now = frames[i] - mean;
         squares += now * now;
@@ -52,7 +45,7 @@ static void block_means(const double *frames, int count, int blocks, double *mea
     for (int b = 0; b < blocks; b++) {
         int first = (int)((long long)count * b / blocks);
         int end = (int)((long long)count * (b + 1) / blocks);
-        means[b] = mean_of(frames + first, end - first);
+        means[b] = irb_mean(frames + first, end - first);
     }
 }
 
@@ -66,7 +59,7 @@ int irb_blocks(const double *frames, int count, double *means)
 /* What each frame does to the logarithm of mean(a)/mean(b); false where there is none. */
 static bool influence_of(const double *a, const double *b, int count, double *influence)
 {
-    double mean_a = mean_of(a, count), mean_b = mean_of(b, count);
+    double mean_a = irb_mean(a, count), mean_b = irb_mean(b, count);
     if (!(mean_a > 0 && mean_b > 0))
         return false;
     for (int i = 0; i < count; i++)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/stats/interval.h"
+#include "core/stats/mean.h"
 #include "core/stats/rng.h"
 
 #include <math.h>
@@ -11,15 +12,6 @@ enum {
 };
 
 const char *const irb_unit_names[IRB_UNIT_COUNT] = {"none", "seed", "repeat", "block"};
-
-/* Equal units have exactly their own value as mean. */
-static double mean_of(const double *x, int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++)
-        sum += x[i] - x[0];
-    return x[0] + sum / count;
-}
 
 /* z = (x - mean)/s with the sample's standard deviation s; all 0 where s is 0. Returns s. The
  * squares are those of deviations over the largest, so that none leaves a double's range. */
@@ -149,7 +141,7 @@ struct irb_interval irb_mean_interval(const double *units, int count, double con
     if (count < 1)
         return interval;
     double reach[2];
-    interval.value = mean_of(units, count);
+    interval.value = irb_mean(units, count);
     reach_of(units, count, interval.value, confidence, reach);
     interval.low = interval.value + reach[0];
     interval.high = interval.value + reach[1];
@@ -163,7 +155,7 @@ struct irb_interval irb_ratio_interval(const double *a, const double *b, int cou
     double *influence = count < 1 ? NULL : malloc((size_t)count * sizeof *influence);
     if (!influence)
         return interval;
-    const double mean_a = mean_of(a, count), mean_b = mean_of(b, count);
+    const double mean_a = irb_mean(a, count), mean_b = irb_mean(b, count);
     const bool log_scale = mean_a > 0 && mean_b > 0;
     interval.value = mean_a == mean_b ? 1 : mean_b == 0 ? INFINITY : mean_a / mean_b;
     for (int i = 0; i < count; i++)
