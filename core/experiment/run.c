@@ -95,9 +95,7 @@ static bool store_keys(struct irb_run *run, const struct irb_sequence *sequence,
 
 static bool read_keys(struct irb_run *run, struct irb_sequence *sequence, struct irb_error *err)
 {
-    char *name = irb_asprintf("scene/%s/keys", sequence->entry->name);
-    char *text = irb_store_get_meta(run->store, name);
-    free(name);
+    char *text = irb_store_get_scene_meta(run->store, sequence->entry->name, "keys");
     bool ok = text != NULL;
     const char *line = text;
     for (int i = 0; ok && i < sequence->frame_count; i++) {

@@ -18,18 +18,6 @@ char *irb_html_meta(const struct irb_html_page *page, const char *name)
     return value ? value : irb_strdup("");
 }
 
-double irb_html_scene_number(const struct irb_html_page *page, const char *scene, const char *name)
-{
-    char *key = irb_asprintf("scene/%s/%s", scene, name);
-    char *value = irb_store_get_meta(page->store, key), *end = value;
-    double number = value ? strtod(value, &end) : NAN;
-    if (!value || end == value)
-        number = NAN;
-    free(value);
-    free(key);
-    return number;
-}
-
 const char *irb_html_colour(const struct irb_html_page *page, const char *method)
 {
     int other = irb_names_find(&page->others, method);

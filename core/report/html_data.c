@@ -57,8 +57,8 @@ static void coding(struct irb_str *out, const struct irb_html_page *page, const 
 {
     char *v0_name = irb_asprintf("film_v0_%s", name),
          *vmax_name = irb_asprintf("film_vmax_%s", name);
-    double v0 = irb_html_scene_number(page, scene, v0_name);
-    double vmax = irb_html_scene_number(page, scene, vmax_name);
+    double v0 = irb_store_scene_number(page->store, scene, v0_name);
+    double vmax = irb_store_scene_number(page->store, scene, vmax_name);
     member(out, name);
     if (v0 > 0 && vmax > 0)
         irb_str_printf(out, "[%.9g,%.9g]", v0, vmax);
@@ -134,11 +134,11 @@ static void scene(struct irb_str *out, const struct irb_html_page *page, int s)
     const struct irb_html_scene_images *images = &page->images.scenes[s];
     irb_str_printf(out, "{");
     text(out, "name", scene->name);
-    double exposure = irb_html_scene_number(page, scene->name, "preview_exposure");
+    double exposure = irb_store_scene_number(page->store, scene->name, "preview_exposure");
     number(out, "exposure", exposure > 0 ? exposure : 1);
-    double mean = irb_html_scene_number(page, scene->name, "mean_indirect");
+    double mean = irb_store_scene_number(page->store, scene->name, "mean_indirect");
     number(out, "mean", mean > 0 ? mean : 1);
-    number(out, "profileRow", irb_html_scene_number(page, scene->name, "profile_row"));
+    number(out, "profileRow", irb_store_scene_number(page->store, scene->name, "profile_row"));
     number(out, "total", images->frame_count);
     number(out, "best", images->best);
     member(out, "coding");

@@ -28,8 +28,6 @@ struct irb_html_page {
 
 /* A run's text, malloc'ed, "" where it has none. */
 char *irb_html_meta(const struct irb_html_page *page, const char *name);
-/* The number under scene/SCENE/name; NaN where there is none. */
-double irb_html_scene_number(const struct irb_html_page *page, const char *scene, const char *name);
 /* "#0072B2", as in the figures. */
 const char *irb_html_colour(const struct irb_html_page *page, const char *method);
 /* The trial's name with its colour, the parameters in a weaker ink. */

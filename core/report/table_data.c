@@ -134,12 +134,10 @@ static void append_meta(struct irb_str *out, struct irb_store *store, const char
 static void append_choice(struct irb_str *out, struct irb_store *store, const char *scene,
                           const char *name, const char *before)
 {
-    char *key = irb_asprintf("scene/%s/%s", scene, name);
-    char *value = irb_store_get_meta(store, key);
+    char *value = irb_store_get_scene_meta(store, scene, name);
     if (value)
         irb_str_printf(out, "%s%.3g", before, strtod(value, NULL));
     free(value);
-    free(key);
 }
 
 static char *scene_choices(struct irb_store *store, const char *scene)

@@ -44,27 +44,14 @@ static void read_time(void *user, int repeat, int frame, const char *stage, doub
     read->last_timed = frame;
 }
 
-/* A number of the scene's scoring, NaN where there is none. */
-static double constant(struct irb_store *store, const char *scene, const char *name)
-{
-    char *key = irb_asprintf("scene/%s/%s", scene, name);
-    char *text = irb_store_get_meta(store, key);
-    double value = text ? strtod(text, NULL) : NAN;
-    free(text);
-    free(key);
-    return value;
-}
-
 /* Frames of the scene's sequence: lines of its keys; 0 where they are unknown. */
 static int frames_of(struct irb_store *store, const char *scene)
 {
-    char *key = irb_asprintf("scene/%s/keys", scene);
-    char *lines = irb_store_get_meta(store, key);
+    char *lines = irb_store_get_scene_meta(store, scene, "keys");
     int count = 0;
     for (const char *c = lines ? lines : ""; *c; c++)
         count += *c == '\n';
     free(lines);
-    free(key);
     return count;
 }
 
@@ -74,8 +61,10 @@ static void aggregate(struct irb_table_row *row, const struct frames_read *read,
 {
     const char *scene = row->trial->scene;
     const struct irb_sequence_scale scale = {
-        constant(store, scene, "mean_indirect"), constant(store, scene, "mean_full"),
-        constant(store, scene, "psnr_peak_indirect"), constant(store, scene, "psnr_peak_full")};
+        irb_store_scene_number(store, scene, "mean_indirect"),
+        irb_store_scene_number(store, scene, "mean_full"),
+        irb_store_scene_number(store, scene, "psnr_peak_indirect"),
+        irb_store_scene_number(store, scene, "psnr_peak_full")};
     double *m = row->metrics;
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         if (read->count[i])

@@ -112,11 +112,7 @@ struct showing {
 
 static double exposure_of(struct irb_store *store, const char *scene)
 {
-    char *key = irb_asprintf("scene/%s/preview_exposure", scene);
-    char *text = irb_store_get_meta(store, key);
-    double exposure = text ? strtod(text, NULL) : 0;
-    free(text);
-    free(key);
+    double exposure = irb_store_scene_number(store, scene, "preview_exposure");
     return exposure > 0 ? exposure : 1;
 }
 

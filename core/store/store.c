@@ -124,6 +124,24 @@ char *irb_store_get_meta(struct irb_store *store, const char *name)
     return value;
 }
 
+char *irb_store_get_scene_meta(struct irb_store *store, const char *scene, const char *name)
+{
+    char *key = irb_asprintf("scene/%s/%s", scene, name);
+    char *value = irb_store_get_meta(store, key);
+    free(key);
+    return value;
+}
+
+double irb_store_scene_number(struct irb_store *store, const char *scene, const char *name)
+{
+    char *text = irb_store_get_scene_meta(store, scene, name), *end = text;
+    double number = text ? strtod(text, &end) : NAN;
+    if (end == text)
+        number = NAN;
+    free(text);
+    return number;
+}
+
 bool irb_store_read_meta(struct irb_store *store, irb_store_meta_fn fn, void *user,
                          struct irb_error *err)
 {

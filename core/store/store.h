@@ -31,6 +31,9 @@ void irb_store_close(struct irb_store *store);
 bool irb_store_set_meta(struct irb_store *store, const char *name, const char *value,
                         struct irb_error *err);
 char *irb_store_get_meta(struct irb_store *store, const char *name);
+/* What is said of a scene, the value "scene/SCENE/name"; as a number NaN where there is none. */
+char *irb_store_get_scene_meta(struct irb_store *store, const char *scene, const char *name);
+double irb_store_scene_number(struct irb_store *store, const char *scene, const char *name);
 
 /* Calls fn for every value, ordered by name. */
 typedef void (*irb_store_meta_fn)(void *user, const char *name, const char *value);
