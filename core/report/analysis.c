@@ -254,18 +254,15 @@ static bool is_comparable(const struct irb_table_data *data, const struct irb_ta
     return true;
 }
 
-bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, double confidence,
-                       struct irb_error *err)
+bool irb_analysis_of_rows(struct irb_analysis *analysis, const struct irb_table_data *data,
+                          struct irb_store *store, double confidence, struct irb_error *err)
 {
-    struct irb_table_data data;
     *analysis = (struct irb_analysis){.confidence = confidence};
-    if (!irb_table_data_read_seeds(&data, store, err))
-        return false;
-    irb_table_order_stages(&analysis->stages, store, &data.trials);
+    irb_table_order_stages(&analysis->stages, store, &data->trials);
     bool ok = true;
-    for (int i = 0; ok && i < data.row_count; i++)
-        ok = !is_comparable(&data, &data.rows[i]) || read_seed(analysis, &data.rows[i], store, err);
-    irb_table_data_destroy(&data);
+    for (int i = 0; ok && i < data->row_count; i++)
+        ok =
+            !is_comparable(data, &data->rows[i]) || read_seed(analysis, &data->rows[i], store, err);
     if (!ok) {
         irb_analysis_destroy(analysis);
         return false;
@@ -275,6 +272,18 @@ bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, d
     for_each_trial(analysis, pad_stages);
     for_each_trial(analysis, measure_all);
     return true;
+}
+
+bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, double confidence,
+                       struct irb_error *err)
+{
+    struct irb_table_data data;
+    *analysis = (struct irb_analysis){0};
+    if (!irb_table_data_read_seeds(&data, store, err))
+        return false;
+    bool ok = irb_analysis_of_rows(analysis, &data, store, confidence, err);
+    irb_table_data_destroy(&data);
+    return ok;
 }
 
 static void free_trial(struct irb_analysis_trial *trial)

@@ -86,6 +86,10 @@ struct irb_analysis {
 /* confidence in (0,1), IRB_CONFIDENCE as a rule. A run without trials has no scenes. */
 bool irb_analysis_read(struct irb_analysis *analysis, struct irb_store *store, double confidence,
                        struct irb_error *err);
+/* The same of rows that are read already, one a seed (irb_table_data_read_seeds). */
+struct irb_table_data;
+bool irb_analysis_of_rows(struct irb_analysis *analysis, const struct irb_table_data *data,
+                          struct irb_store *store, double confidence, struct irb_error *err);
 void irb_analysis_destroy(struct irb_analysis *analysis);
 
 /* Indices, or -1 where there is none of that name. */

@@ -308,17 +308,17 @@ bool irb_table_data_read(struct irb_table_data *data, struct irb_store *store, b
 {
     if (!irb_table_data_read_seeds(data, store, err))
         return false;
-    if (per_seed)
+    if (per_seed) {
         name_seeds(data);
-    else
-        irb_table_data_merge_seeds(data);
-    irb_table_partial_name(data);
-    if (per_seed)
+        irb_table_partial_name(data);
         return true;
-    if (!irb_analysis_read(&data->analysis, store, IRB_CONFIDENCE, err)) {
+    }
+    if (!irb_analysis_of_rows(&data->analysis, data, store, IRB_CONFIDENCE, err)) {
         irb_table_data_destroy(data);
         return false;
     }
+    irb_table_data_merge_seeds(data);
+    irb_table_partial_name(data);
     connect_intervals(data);
     return true;
 }

@@ -11,7 +11,6 @@
 
 /* What frames have. */
 struct frames_read {
-    bool whole; /* the sequence has scores */
     int last_scored, scored;
     int last_timed, timed;
     double sum[IRB_METRIC_COUNT], squares[IRB_METRIC_COUNT];
@@ -22,7 +21,6 @@ static void read_score(void *user, int frame, const char *name, double value)
 {
     struct frames_read *read = user;
     int metric = irb_metric_find(name);
-    read->whole = read->whole || frame == -1;
     if (frame < 0)
         return;
     read->scored += frame != read->last_scored; /* they come frame by frame */
@@ -76,15 +74,15 @@ bool irb_table_partial_read(struct irb_table_row *row, struct irb_store *store,
                             struct irb_error *err)
 {
     struct frames_read read = {.last_scored = -1, .last_timed = -1};
+    row->frames_of = row->frames = frames_of(store, row->trial->scene);
+    if (irb_store_has_scores(store, row->trial->id, -1)) /* of the sequence: it is whole */
+        return true;
     if (!irb_store_read_scores(store, row->trial->id, read_score, &read, err) ||
         !irb_store_read_times(store, row->trial->id, read_time, &read, err))
         return false;
-    row->frames_of = frames_of(store, row->trial->scene);
-    row->frames = !row->frames_of ? 0
-                  : read.whole    ? row->frames_of
-                  : read.scored   ? read.scored
-                                  : read.timed;
-    if (!read.whole && read.scored)
+    if (row->frames_of)
+        row->frames = read.scored ? read.scored : read.timed;
+    if (read.scored)
         aggregate(row, &read, store);
     return true;
 }

@@ -22,8 +22,8 @@ struct irb_store;
  * opened with `create`; else it is left alone and read as if it were: its times are repeat 0's,
  * and neither repeats nor costs can be stored. */
 struct irb_store *irb_store_open(const char *run_dir, bool create, struct irb_error *err);
-/* The same for reading alone, and what is read is of one moment (that of the call) however much a run
- * writes meanwhile, until the store is closed. A writer does not wait for it. */
+/* The same for reading alone, and what is read is of one moment (that of the call) however much a
+ * run writes meanwhile, until the store is closed. A writer does not wait for it. */
 struct irb_store *irb_store_open_snapshot(const char *run_dir, struct irb_error *err);
 void irb_store_close(struct irb_store *store);
 
