@@ -131,39 +131,25 @@ static void answer(struct irb_str *out, const struct irb_html_page *page, int s,
     irb_str_free(&same);
 }
 
-static int by_time(const void *a, const void *b)
-{
-    const struct irb_analysis_trial *const *x = a, *const *y = b;
-    double p = (*x)->measures[M(frame_ms)].interval.value,
-           q = (*y)->measures[M(frame_ms)].interval.value;
-    return (p > q) - (p < q);
-}
-
 /* The trials that no other one beats in both HDR-FLIP and frame time, fastest first. */
 static void front(struct irb_str *out, const struct irb_analysis_scene *scene)
 {
-    bool *on = calloc((size_t)scene->trial_count + 1, sizeof *on);
-    const struct irb_analysis_trial **list = calloc((size_t)scene->trial_count + 1, sizeof *list);
-    if (!on || !list)
+    int *list = calloc((size_t)scene->trial_count + 1, sizeof *list);
+    if (!list)
         abort();
-    int count = 0;
-    irb_scene_front(scene, NULL, M(indirect_flip), M(frame_ms), on);
-    for (int t = 0; t < scene->trial_count; t++)
-        if (on[t])
-            list[count++] = &scene->trials[t];
-    qsort(list, (size_t)count, sizeof *list, by_time);
+    int count = irb_scene_front_sorted(scene, M(indirect_flip), M(frame_ms), list);
     irb_str_printf(out, "<tr><th scope=\"row\">worth their time</th><td colspan=\"4\">");
     for (int i = 0; i < count; i++) {
         char flip[32], ms[32];
-        irb_html_value(flip, &list[i]->measures[M(indirect_flip)], 3);
-        irb_html_value(ms, &list[i]->measures[M(frame_ms)], 3);
+        const struct irb_analysis_trial *trial = &scene->trials[list[i]];
+        irb_html_value(flip, &trial->measures[M(indirect_flip)], 3);
+        irb_html_value(ms, &trial->measures[M(frame_ms)], 3);
         irb_str_printf(out, "%s", i ? ", " : "");
-        irb_html_text(out, list[i]->trial);
+        irb_html_text(out, trial->trial);
         irb_str_printf(out, " <span class=\"muted\">(%s at %s ms)</span>", flip, ms);
     }
     irb_str_printf(out, "%s</td></tr>\n", count ? "" : "none");
     free(list);
-    free(on);
 }
 
 static void card(struct irb_str *out, const struct irb_html_page *page, int s)

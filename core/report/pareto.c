@@ -77,6 +77,23 @@ void irb_scene_front(const struct irb_analysis_scene *scene, const char *method,
     free(costs);
 }
 
+int irb_scene_front_sorted(const struct irb_analysis_scene *scene, int error, int cost, int *trials)
+{
+    bool *front = allocate(scene->trial_count, sizeof *front);
+    int count = 0;
+    irb_scene_front(scene, NULL, error, cost, front);
+    for (int t = 0; t < scene->trial_count; t++) {
+        if (!front[t])
+            continue;
+        int at = count++;
+        for (; at > 0 && value_of(scene, t, cost) < value_of(scene, trials[at - 1], cost); at--)
+            trials[at] = trials[at - 1];
+        trials[at] = t;
+    }
+    free(front);
+    return count;
+}
+
 struct irb_methods irb_scene_methods(const struct irb_analysis_scene *scene)
 {
     struct irb_methods methods = {.list = allocate(scene->trial_count, sizeof *methods.list)};

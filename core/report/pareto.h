@@ -21,6 +21,10 @@ void irb_pareto_front(const double *error, const double *cost, int count, bool *
  * trials alone; NULL for all. front: trial_count. */
 void irb_scene_front(const struct irb_analysis_scene *scene, const char *method, int error,
                      int cost, bool *front);
+/* The trials on the front of all methods in order of their cost, as indices; room for all trials.
+ * Returns how many. */
+int irb_scene_front_sorted(const struct irb_analysis_scene *scene, int error, int cost,
+                           int *trials);
 
 /* "The least `wanted` where `bounded` is at most `bound`": the least error within a time, or the
  * least time for an error. */

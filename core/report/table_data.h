@@ -61,6 +61,8 @@ void irb_table_order_stages(struct irb_names *stages, struct irb_store *store,
 void irb_table_data_merge_seeds(struct irb_table_data *data);
 /* That mean: of the values that are not NaN, exact where they are equal; NaN without any. */
 double irb_mean_over_seeds(const double *values, int count);
+/* The largest value of a metric; NaN where no row has one (table_seeds.c). */
+double irb_table_largest(const struct irb_table_row *rows, int count, int metric);
 void irb_table_row_free(struct irb_table_row *row);
 void irb_table_data_destroy(struct irb_table_data *data);
 

@@ -72,7 +72,7 @@ static double mean_of(struct irb_table_row *rows, int count, value_fn value, int
     return mean;
 }
 
-static double largest_of(struct irb_table_row *rows, int count, int metric)
+double irb_table_largest(const struct irb_table_row *rows, int count, int metric)
 {
     double most = NAN;
     for (int i = 0; i < count; i++)
@@ -85,7 +85,7 @@ static double largest_of(struct irb_table_row *rows, int count, int metric)
 static void merge(struct irb_table_row *rows, int count)
 {
     struct irb_table_row *row = &rows[0];
-    double worst = largest_of(rows, count, IRB_METRIC_frame_ms_worst);
+    double worst = irb_table_largest(rows, count, IRB_METRIC_frame_ms_worst);
     for (int i = 0; i < IRB_METRIC_COUNT; i++)
         row->metrics[i] = mean_of(rows, count, metric_of, i, &row->spread[i]);
     row->metrics[IRB_METRIC_frame_ms_worst] = worst;

@@ -169,21 +169,12 @@ struct irb_table_group irb_table_group_at(const struct irb_table_data *data, int
     return group;
 }
 
-/* The largest value of a property of the measurement; NaN where no trial has it. */
-static double largest(const struct irb_table_group *group, int metric)
-{
-    double most = NAN;
-    for (int i = 0; i < group->count; i++)
-        if (!(group->rows[i].metrics[metric] <= most) && !isnan(group->rows[i].metrics[metric]))
-            most = group->rows[i].metrics[metric];
-    return most;
-}
-
 void irb_table_reference(const struct irb_table_group *group, struct irb_str *out)
 {
     char noise[32], flicker[32];
-    irb_table_number(noise, largest(group, M(reference_noise)), 3);
-    irb_table_number(flicker, largest(group, M(reference_flicker)), 3);
+    irb_table_number(noise, irb_table_largest(group->rows, group->count, M(reference_noise)), 3);
+    irb_table_number(flicker, irb_table_largest(group->rows, group->count, M(reference_flicker)),
+                     3);
     const char *choices = group->rows->choices;
     irb_str_printf(out, "reference: noise %s (relMSE), flicker floor %s%s%s%s", noise,
                    strcmp(flicker, "-") ? "<= " : "", flicker, *choices ? "; " : "", choices);

@@ -116,33 +116,6 @@ static void add_title(struct irb_grid *grid, int metric)
     free(title);
 }
 
-static int by_cost(const struct irb_analysis_scene *scene, int cost, int a, int b)
-{
-    double x = scene->trials[a].measures[cost].interval.value;
-    double y = scene->trials[b].measures[cost].interval.value;
-    return (x > y) - (x < y);
-}
-
-/* The trials on the front in order of their cost; returns how many. */
-static int sorted_front(const struct irb_analysis_scene *scene, int error, int cost, int *trials)
-{
-    bool *front = calloc((size_t)scene->trial_count + 1, sizeof *front);
-    int count = 0;
-    if (!front)
-        abort();
-    irb_scene_front(scene, NULL, error, cost, front);
-    for (int t = 0; t < scene->trial_count; t++) {
-        if (!front[t])
-            continue;
-        int at = count++;
-        for (; at > 0 && by_cost(scene, cost, t, trials[at - 1]) < 0; at--)
-            trials[at] = trials[at - 1];
-        trials[at] = t;
-    }
-    free(front);
-    return count;
-}
-
 static void write_front(const struct writing *w, int s, int cost)
 {
     const struct irb_analysis_scene *scene = scene_of(w, s);
@@ -151,7 +124,7 @@ static void write_front(const struct writing *w, int s, int cost)
     int *trials = calloc((size_t)scene->trial_count + 1, sizeof *trials);
     if (!trials)
         abort();
-    int count = sorted_front(scene, error, cost, trials);
+    int count = irb_scene_front_sorted(scene, error, cost, trials);
     irb_grid_add(&grid, "trial");
     add_title(&grid, cost);
     add_title(&grid, error);
