@@ -12,15 +12,19 @@ static const double bar_interval_s = 0.1;
 static const double line_interval_s = 5.0;
 static const double json_interval_s = 0.5;
 
-struct irb_log irb_log_default(void)
+bool irb_colour_wanted(int fd)
 {
     const char *no_color = getenv("NO_COLOR");
-    bool terminal = isatty(STDERR_FILENO);
+    return isatty(fd) && !(no_color && *no_color);
+}
+
+struct irb_log irb_log_default(void)
+{
     return (struct irb_log){
         .out = stderr,
         .level = IRB_LOG_INFO,
-        .colour = terminal && !(no_color && *no_color),
-        .progress_bar = terminal,
+        .colour = irb_colour_wanted(STDERR_FILENO),
+        .progress_bar = isatty(STDERR_FILENO),
     };
 }
 

@@ -44,6 +44,9 @@ struct irb_log {
     void *watcher;
 };
 
+/* Whether to write in colour to a file descriptor: a terminal, unless NO_COLOR is set. */
+bool irb_colour_wanted(int fd);
+
 /* stderr, IRB_LOG_INFO, colour and bar as the terminal and NO_COLOR allow. */
 struct irb_log irb_log_default(void);
 

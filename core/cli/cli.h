@@ -89,6 +89,7 @@ struct irb_cli_option {
     const char *value;         /* name of the value, NULL for a switch */
     const char *doc;           /* one line */
     bool (*set)(struct irb_cli *cli, const char *value, struct irb_error *err);
+    size_t text; /* where set is NULL: the offset of the text in struct irb_cli that it is */
 };
 extern const struct irb_cli_option irb_cli_options[]; /* ended by a NULL name */
 

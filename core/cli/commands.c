@@ -15,11 +15,10 @@
 static bool table_options(const struct irb_cli *cli, struct irb_table_options *options,
                           struct irb_error *err)
 {
-    const char *no_color = getenv("NO_COLOR");
     *options = (struct irb_table_options){
         .format = cli->subject == IRB_TABLE_FRAMES ? IRB_TABLE_CSV : IRB_TABLE_TEXT,
         .subject = cli->subject,
-        .colour = isatty(STDOUT_FILENO) && !(no_color && *no_color),
+        .colour = irb_colour_wanted(STDOUT_FILENO),
         .per_seed = cli->per_seed,
         .against = cli->against,
     };

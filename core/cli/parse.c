@@ -7,16 +7,10 @@
 #include "core/experiment/run.h"
 
 #include <errno.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool set_out(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->out = value;
-    return true;
-}
 
 static bool set_override(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
@@ -128,13 +122,6 @@ static bool set_minutes(struct irb_cli *cli, const char *value, struct irb_error
     return true;
 }
 
-static bool set_format(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->format = value;
-    return true;
-}
-
 static bool add_bound(struct irb_cli *cli, const char *value, bool most, struct irb_error *err)
 {
     if (cli->bound_count == IRB_CLI_MAX_ARGUMENTS)
@@ -151,48 +138,6 @@ static bool set_max(struct irb_cli *cli, const char *value, struct irb_error *er
 static bool set_min(struct irb_cli *cli, const char *value, struct irb_error *err)
 {
     return add_bound(cli, value, false, err);
-}
-
-static bool set_layer(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->layer = value;
-    return true;
-}
-
-static bool set_kind(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->kind = value;
-    return true;
-}
-
-static bool set_scene(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->scene = value;
-    return true;
-}
-
-static bool set_metric(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->metric = value;
-    return true;
-}
-
-static bool set_cost(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->cost = value;
-    return true;
-}
-
-static bool set_shader_dir(struct irb_cli *cli, const char *value, struct irb_error *err)
-{
-    (void)err;
-    cli->shader_dir = value;
-    return true;
 }
 
 static bool set_module(struct irb_cli *cli, const char *value, struct irb_error *err)
@@ -297,8 +242,8 @@ static bool set_json(struct irb_cli *cli, const char *value, struct irb_error *e
 
 const struct irb_cli_option irb_cli_options[] = {
     {"--out", "-o", "DIR",
-     "run folder (default results/runs/NAME-KEY); folder of compare's maps; file of a plot",
-     set_out},
+     "run folder (default results/runs/NAME-KEY); folder of compare's maps; file of a plot", NULL,
+     offsetof(struct irb_cli, out)},
     {"--set", NULL, "KEY=VALUE", "override a config value: frames=4, reference.noise=0.02",
      set_override},
     {"--seed", NULL, "N", "run with this seed instead of the config's", set_seed},
@@ -318,12 +263,13 @@ const struct irb_cli_option irb_cli_options[] = {
      "keep the methods' debug layers with the images; short for --set debug_layers=true",
      set_debug_layers},
     {"--backend", NULL, "NAME", "auto (default), osmesa, egl or null", set_backend},
-    {"--shader-dir", NULL, "DIR", "read shaders from here instead of the binary", set_shader_dir},
+    {"--shader-dir", NULL, "DIR", "read shaders from here instead of the binary", NULL,
+     offsetof(struct irb_cli, shader_dir)},
     {"--module", NULL, "FILE.so", "load a method from a shared object", set_module},
     {"--threads", NULL, "N", "threads of reference and scoring (default: all cores)", set_threads},
     {"--format", NULL, "FORMAT",
-     "of tables: text (default), csv, md, json or latex; of plots: svg (default), png or pdf",
-     set_format},
+     "of tables: text (default), csv, md, json or latex; of plots: svg (default), png or pdf", NULL,
+     offsetof(struct irb_cli, format)},
     {"--per-seed", NULL, NULL, "tables: a row for each seed instead of means over the seeds",
      set_per_seed},
     {"--stages", NULL, NULL, "tables: the median time of every stage instead of the scores",
@@ -342,22 +288,26 @@ const struct irb_cli_option irb_cli_options[] = {
      "tradeoff: the time budget of a frame (default: three that all methods reach)", set_time},
     {"--error", NULL, "VALUE", "tradeoff: the error that is asked for (default: likewise)",
      set_error},
-    {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", set_layer},
+    {"--layer", NULL, "NAME", "compare: the EXR layer to read (default: plain R, G, B)", NULL,
+     offsetof(struct irb_cli, layer)},
     {"--max", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is above", set_max},
     {"--min", NULL, "METRIC=VALUE", "compare: exit status 1 when the metric is below", set_min},
-    {"--kind", NULL, "KIND", "plot: pareto, stages, timeline, convergence or flicker", set_kind},
-    {"--scene", NULL, "NAME", "plot, table --figure: this scene alone (default: all)", set_scene},
+    {"--kind", NULL, "KIND", "plot: pareto, stages, timeline, convergence or flicker", NULL,
+     offsetof(struct irb_cli, kind)},
+    {"--scene", NULL, "NAME", "plot, table --figure: this scene alone (default: all)", NULL,
+     offsetof(struct irb_cli, scene)},
     {"--metric", NULL, "NAME",
      "plot, tradeoff: indirect_flip, indirect_rmse, indirect_relmse or indirect_flicker; for "
      "tradeoff "
      "the short names do: flip (default), rmse, relmse, flicker",
-     set_metric},
-    {"--cost", NULL, "COST", "plot: pareto's cost, ms (default) or bytes", set_cost},
+     NULL, offsetof(struct irb_cli, metric)},
+    {"--cost", NULL, "COST", "plot: pareto's cost, ms (default) or bytes", NULL,
+     offsetof(struct irb_cli, cost)},
     {"--key", NULL, NULL, "reference: print the cache key of every frame and stop", set_key},
     {"--verbose", "-v", NULL, "say more", set_verbose},
     {"--json", NULL, NULL, "progress and messages on stderr as JSON lines, for programs", set_json},
     {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},
-    {NULL, NULL, NULL, NULL, NULL},
+    {NULL, NULL, NULL, NULL, NULL, 0},
 };
 enum { OPTION_COUNT = sizeof irb_cli_options / sizeof *irb_cli_options - 1 };
 
@@ -415,6 +365,15 @@ static const struct irb_command *find_command(const char *name, struct irb_error
     return NULL;
 }
 
+static bool set_value(struct irb_cli *cli, const struct irb_cli_option *option, const char *value,
+                      struct irb_error *err)
+{
+    if (option->set)
+        return option->set(cli, value, err);
+    memcpy((char *)cli + option->text, &value, sizeof value);
+    return true;
+}
+
 /* Applies argv[*index] as an option, taking its value from "--name=value" or the next argument. */
 static bool apply_option(struct irb_cli *cli, int argc, char **argv, int *index,
                          struct irb_error *err)
@@ -431,12 +390,12 @@ static bool apply_option(struct irb_cli *cli, int argc, char **argv, int *index,
             continue;
         if (!o->value)
             return equals ? irb_fail(err, IRB_E_USAGE, "%s takes no value", o->name)
-                          : o->set(cli, NULL, err);
+                          : set_value(cli, o, NULL, err);
         if (equals)
-            return o->set(cli, equals + 1, err);
+            return set_value(cli, o, equals + 1, err);
         if (*index + 1 >= argc)
             return irb_fail(err, IRB_E_USAGE, "%s: expected %s, found nothing", o->name, o->value);
-        return o->set(cli, argv[++*index], err);
+        return set_value(cli, o, argv[++*index], err);
     }
     const char *near = irb_nearest(word, names, OPTION_COUNT);
     return irb_fail(err, IRB_E_USAGE, "unknown option '%s'%s%s%s; see irbench --help", word,

@@ -32,8 +32,7 @@ static bool answer(struct irb_cli *cli, const char *run_dir, struct irb_store *s
                    const struct irb_tradeoff_options *options, enum irb_table_format format,
                    struct irb_error *err)
 {
-    const char *no_color = getenv("NO_COLOR");
-    bool colour = isatty(STDOUT_FILENO) && !(no_color && *no_color);
+    bool colour = irb_colour_wanted(STDOUT_FILENO);
     struct irb_analysis analysis;
     struct irb_str images = {0}, text = {0};
     if (!irb_analysis_read(&analysis, store, IRB_CONFIDENCE, err))
